@@ -1,0 +1,215 @@
+"""A SortedModel to C: variables.h and model.c, a line for each equation with the place it comes from."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from typing import Any
+
+import sympy
+from sympy.printing.c import C11CodePrinter
+
+from .ir import DEFAULT_TOLERANCE, TIME, Assignment, CSources, JacobianModel, SortedModel, Variable
+from .slices import needed_for, needed_for_relations, start_value
+
+TOKEN_PLACEHOLDER = "{00000000-0000-0000-0000-000000000000}"
+C_KEYWORDS = frozenset(C11CodePrinter.reserved_words) | {"inline", "restrict", "bool", "true", "false", "at"}
+
+
+def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str) -> CSources:
+    """variables.h and model.c of ``model``, with the all-zero placeholder where the content hash will stand."""
+    names = _identifiers(model.value_references)
+    printer = _Printer(names)
+    return CSources({"variables.h": _header(model, identifier, names), "model.c": _model(model, jacobian, printer)})
+
+
+def _identifiers(names: Iterable[str]) -> dict[str, str]:
+    """Modelica names to distinct C names: ``der(car.body.v)`` to ``der_car_body_v``."""
+    result: dict[str, str] = {}
+    taken: set[str] = set()
+    for name in names:
+        identifier = re.sub(r"\W+", "_", name).strip("_")
+        while identifier in taken or identifier in C_KEYWORDS:
+            identifier += "_"
+        taken.add(identifier)
+        result[name] = identifier
+    return result
+
+
+class _Printer(C11CodePrinter):  # type: ignore[misc]
+    """C expressions over ``v->name``; doubles with the digits that give them back exactly."""
+
+    def __init__(self, names: dict[str, str]) -> None:
+        super().__init__()
+        self._names = names
+
+    def _print_Symbol(self, expr: sympy.Symbol) -> str:
+        if expr.name in self._names:
+            return f"v->{self._names[expr.name]}"
+        return expr.name if expr.name.startswith("holds[") else local_name(expr.name)
+
+    def _print_Float(self, expr: sympy.Float) -> str:
+        return repr(float(expr))
+
+    def _print_Integer(self, expr: sympy.Integer) -> str:
+        return f"{int(expr)}.0"
+
+    def _print_Rational(self, expr: sympy.Rational) -> str:
+        return f"{expr.p}.0/{expr.q}.0"
+
+    def _print_Pow(self, expr: sympy.Pow) -> str:
+        base, exponent = expr.as_base_exp()
+        if exponent.is_Integer and 2 <= abs(int(exponent)) <= 4:
+            factor = self.parenthesize(base, sympy.printing.precedence.PRECEDENCE["Atom"])
+            product = "*".join([factor] * abs(int(exponent)))
+            return f"({product})" if exponent > 0 else f"1.0/({product})"
+        return str(super()._print_Pow(expr))
+
+    def _print_Piecewise(self, expr: sympy.Piecewise) -> str:
+        *branches, (last, _) = expr.args
+        text = self._print(last)
+        for value, condition in reversed(branches):
+            text = f"({self._print(condition)} ? {self._print(value)} : {text})"
+        return text
+
+    def text(self, expression: sympy.Expr) -> str:
+        return str(self.doprint(expression))
+
+
+def local_name(name: str) -> str:
+    """The C name of a partial derivative: ``d(car.tyre.F)/d(car.body.v)`` to ``d_car_tyre_F__d_car_body_v``."""
+    return "__".join(re.sub(r"\W+", "_", part).strip("_") for part in name.split("/"))
+
+
+def _header(model: SortedModel, identifier: str, names: dict[str, str]) -> str:
+    tolerance = model.experiment.tolerance or DEFAULT_TOLERANCE
+    fields = "\n".join(f"        double {c}; /* {name} */" for name, c in names.items())
+    return f"""/* Generated from {model.name}: the table of variables. Its order is the FMI value reference. */
+#ifndef VARIABLES_H
+#define VARIABLES_H
+
+#define MODEL_NAME "{identifier}"
+#define MODEL_TOKEN "{TOKEN_PLACEHOLDER}"
+#define DEFAULT_TOLERANCE {tolerance!r}
+
+enum {{
+    N_STATES = {len(model.states)},
+    N_INPUTS = {len(model.inputs)},
+    N_PARAMETERS = {len(model.parameters)},
+    N_RELATIONS = {len(model.relations)},
+    N_VARIABLES = {len(names)}
+}};
+
+typedef union {{
+    struct {{
+{fields}
+    }};
+    double at[N_VARIABLES];
+}} Variables;
+
+#endif
+"""
+
+
+def _model(model: SortedModel, jacobian: JacobianModel, printer: _Printer) -> str:
+    relations = ", ".join(_string(f"{r.text} ({r.origin})") for r in model.relations) or '""'
+    rows = "\n".join(_info(name, model) for name in model.value_references)
+    outputs = _lines(model.assignments, printer)
+    derivatives = _lines(needed_for(model.derivatives, model), printer)
+    residuals = [f"z[{i}] = {printer.text(r.residual)};" for i, r in enumerate(model.relations)]
+    sections = [
+        _function("model_parameters(Variables *v)", _lines(model.parameter_assignments, printer)),
+        _function("model_start(Variables *v)", _lines(model.start_assignments, printer)),
+        _function("model_derivatives(Variables *v, const bool holds[])", derivatives),
+        _function("model_outputs(Variables *v, const bool holds[])", outputs),
+        _jacobian(model, jacobian, printer),
+        _function(
+            "model_relations(Variables *v, const bool holds[], double z[])",
+            [*_lines(needed_for_relations(model), printer), *residuals],
+        ),
+    ]
+    return f"""/* Generated from {model.name}. Each line bears the place in the Modelica source that it comes from. */
+#include "model.h"
+
+#include <math.h>
+
+const VariableInfo variable_info[N_VARIABLES] = {{
+{rows}
+}};
+
+const char *const relation_text[AT_LEAST_ONE(N_RELATIONS)] = {{{relations}}};
+
+""" + "\n".join(sections)
+
+
+def _function(signature: str, lines: list[str]) -> str:
+    """A C function; parameters that its lines do not use are marked so."""
+    body = "\n".join(lines)
+    arguments = re.findall(r"(\w+)(?:\[\])?[,)]", signature)
+    unused = [f"(void){a};" for a in arguments if not re.search(rf"\b{a}\b", body)]
+    text = "\n".join(f"    {line}" for line in [*unused, *lines])
+    return f"void {signature}\n{{\n{text}\n}}\n"
+
+
+def _lines(assignments: Iterable[Assignment], printer: _Printer) -> list[str]:
+    return [f"v->{printer._names[a.target]} = {printer.text(a.expression)}; /* {a.origin} */" for a in assignments]
+
+
+def _jacobian(model: SortedModel, jacobian: JacobianModel, printer: _Printer) -> str:
+    arguments = set().union(*(a.expression.free_symbols for a in jacobian.assignments)) | set().union(
+        *(value.free_symbols for value in (*jacobian.entries.values(), *jacobian.time_entries.values()))
+    )
+    needed = needed_for((s.name for s in arguments), model)
+    lines = _lines(needed, printer)
+    lines += [
+        f"const double {local_name(a.target)} = {printer.text(a.expression)}; /* {a.origin} */"
+        for a in jacobian.assignments
+    ]
+    count = len(model.states)
+    lines.append("for (int i = 0; i < N_STATES * N_STATES; i++) jacobian[i] = 0.0;" if count else "")
+    lines.append("for (int i = 0; i < N_STATES; i++) time_derivative[i] = 0.0;" if count else "")
+    for (row, column), value in jacobian.entries.items():
+        comment = f"{model.derivatives[row]} by {model.states[column]}"
+        lines.append(f"jacobian[{row} * N_STATES + {column}] = {printer.text(value)}; /* {comment} */")
+    lines += [f"time_derivative[{row}] = {printer.text(value)};" for row, value in jacobian.time_entries.items()]
+    signature = "model_jacobian(Variables *v, const bool holds[], double jacobian[], double time_derivative[])"
+    return _function(signature, [line for line in lines if line])
+
+
+def _info(name: str, model: SortedModel) -> str:
+    variable = model.variables.get(name, Variable(name, unit="s" if name == TIME else ""))
+    numbers = ", ".join(
+        _number(value)
+        for value in (
+            start_value(name, model),
+            -float("inf") if variable.min is None else variable.min,
+            float("inf") if variable.max is None else variable.max,
+            1.0 if variable.nominal is None else abs(variable.nominal),
+        )
+    )
+    return f"    {{{_string(name)}, {_string(variable.unit)}, {_kind(name, model)}, {numbers}}},"
+
+
+def _kind(name: str, model: SortedModel) -> str:
+    calculated_starts = {a.target for a in model.start_assignments}
+    kinds: dict[str, Iterable[str]] = {
+        "TIME": (TIME,),
+        "STATE_CALCULATED": calculated_starts,
+        "STATE": model.states,
+        "DERIVATIVE": model.derivatives,
+        "INPUT": model.inputs,
+        "PARAMETER": model.parameters,
+        "CALCULATED_PARAMETER": (a.target for a in model.parameter_assignments),
+    }
+    return next((kind for kind, names in kinds.items() if name in names), "OTHER")
+
+
+def _number(value: float) -> str:
+    if value in (float("inf"), -float("inf")):
+        return "INFINITY" if value > 0 else "-INFINITY"
+    return repr(float(value))
+
+
+def _string(text: Any) -> str:
+    escaped = str(text).replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{escaped}"'

@@ -1,0 +1,177 @@
+"""A FlatModel to an EquationSystem: bindings become equations, aliases go, states are chosen.
+
+A variable that is differentiated is a state, unless an equation ties it to other states alone, as
+``compression = x_t - x_c`` does. Then it is computed from them, and its derivative from the total time derivative of
+that equation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import sympy
+
+from .errors import BuildError
+from .ir import TIME, Equation, EquationSystem, FlatModel, Relation, Variable, der, holds, symbol
+
+Names = dict[str, str]
+
+
+def derive(model: FlatModel) -> EquationSystem:
+    """The equation system of ``model``; BuildError where it is not balanced or needs index reduction."""
+    variables = {variable.name: variable for variable in model.variables}
+    bindings = [
+        Equation(symbol(v.name) - v.binding, v.origin)
+        for v in model.variables
+        if v.variability == "continuous" and v.binding is not None
+    ]
+    equations = [*model.equations, *bindings]
+    aliases = _aliases(equations, variables)
+    values = _constants_and_roots(variables, aliases)
+    relations, truths = _unique_relations(model.relations, values)
+    replacements = {**values, **truths}
+    reduced = [Equation(e.residual.subs(replacements), e.origin) for e in equations]
+    reduced = [e for e in reduced if e.residual != 0]
+    parameters, bound = _parameters(variables, aliases, replacements)
+    inputs = tuple(v.name for v in model.variables if v.causality == "input")
+    algebraics = [
+        v.name
+        for v in model.variables
+        if v.variability == "continuous" and v.name not in aliases and v.causality != "input"
+    ]
+    states, reduced = _choose_states(reduced, algebraics, variables)
+    derivatives = [name for name in (der(n) for n in algebraics) if symbol(name) in _symbols(reduced)]
+    unknowns = (*derivatives, *(n for n in algebraics if n not in states))
+    return EquationSystem(
+        model=model,
+        states=states,
+        inputs=inputs,
+        unknowns=unknowns,
+        equations=tuple(reduced),
+        relations=relations,
+        parameters=parameters,
+        bound_parameters=bound,
+        starts={name: start.subs(values) for name in states if (start := variables[name].start) is not None},
+        aliases=aliases,
+    )
+
+
+def _symbols(equations: Iterable[Equation]) -> set[sympy.Symbol]:
+    return set().union(*(e.residual.free_symbols for e in equations))
+
+
+def _aliases(equations: Iterable[Equation], variables: Mapping[str, Variable]) -> Names:
+    """Each alias to the name that stands for it. Aliases are what ``a = b`` makes of two variables, nothing else."""
+    sets: dict[str, set[str]] = {}
+    pairs = [names for e in equations if (names := _equal_names(e.residual, variables))]
+    pairs += [
+        (v.name, v.binding.name)
+        for v in variables.values()
+        if v.variability == "parameter" and v.binding is not None and v.binding.is_Symbol
+    ]
+    for a, b in pairs:
+        merged = sets.get(a, {a}) | sets.get(b, {b})
+        sets.update(dict.fromkeys(merged, merged))
+    order = list(variables)
+
+    def rank(name: str) -> tuple[bool, bool, bool, int, int]:
+        v = variables[name]
+        is_free = v.binding is None or not v.binding.is_Symbol
+        return (v.causality != "input", not v.fixed, not is_free, name.count("."), order.index(name))
+
+    roots = {name: min(members, key=rank) for name, members in sets.items()}
+    return {name: roots[name] for name in order if name in roots and roots[name] != name}
+
+
+def _equal_names(residual: sympy.Expr, variables: Mapping[str, Variable]) -> tuple[str, str] | None:
+    symbols = sorted(residual.free_symbols, key=str)
+    if len(symbols) != 2 or residual not in (symbols[0] - symbols[1], symbols[1] - symbols[0]):
+        return None
+    first, second = (s.name for s in symbols)
+    is_continuous = all(n in variables and variables[n].variability == "continuous" for n in (first, second))
+    return (first, second) if is_continuous else None
+
+
+def _constants_and_roots(variables: Mapping[str, Variable], aliases: Names) -> dict[sympy.Symbol, sympy.Expr]:
+    """What to put in place of names: the value of a final parameter that has one, the root of an alias."""
+    values: dict[sympy.Symbol, sympy.Expr] = {
+        symbol(v.name): v.binding
+        for v in variables.values()
+        if v.variability == "parameter" and v.final and v.binding is not None and v.binding.is_number
+    }
+    for name, root in aliases.items():
+        values[symbol(name)] = values.get(symbol(root), symbol(root))
+        values[symbol(der(name))] = symbol(der(root))
+    return values
+
+
+def _unique_relations(
+    relations: tuple[Relation, ...], values: Mapping[sympy.Symbol, sympy.Expr]
+) -> tuple[tuple[Relation, ...], dict[sympy.Symbol, sympy.Symbol]]:
+    """Relations with equal residuals are one, so that they switch together."""
+    unique: dict[sympy.Expr, Relation] = {}
+    for relation in relations:
+        residual = relation.residual.subs(values)
+        unique.setdefault(residual, Relation(residual, relation.text, relation.origin))
+    positions = {residual: index for index, residual in enumerate(unique)}
+    truths = {holds(i): holds(positions[r.residual.subs(values)]) for i, r in enumerate(relations)}
+    return tuple(unique.values()), truths
+
+
+def _parameters(
+    variables: Mapping[str, Variable], aliases: Names, replacements: Mapping[sympy.Symbol, sympy.Expr]
+) -> tuple[tuple[str, ...], dict[str, Equation]]:
+    """Names of the parameters that can be set, and the equations of those that follow from others."""
+    settable: list[str] = []
+    bound: dict[str, Equation] = {}
+    for v in variables.values():
+        if v.variability != "parameter" or v.name in aliases or symbol(v.name) in replacements:
+            continue
+        if v.binding is None or v.binding.is_number:
+            settable.append(v.name)
+        else:
+            bound[v.name] = Equation(symbol(v.name) - v.binding.subs(replacements), v.origin)
+    return tuple(settable), bound
+
+
+def _choose_states(
+    equations: list[Equation], algebraics: list[str], variables: Mapping[str, Variable]
+) -> tuple[tuple[str, ...], list[Equation]]:
+    names = {symbol(n): n for n in algebraics}
+    states = [n for n in algebraics if symbol(der(n)) in _symbols(equations)]
+    derivatives = {symbol(der(n)) for n in algebraics}
+    result = list(equations)
+    for equation in equations:
+        symbols = equation.residual.free_symbols
+        occurring = [names[s] for s in symbols if s in names]
+        if not occurring or symbols & derivatives or not set(occurring) <= set(states):
+            continue
+        demoted = _demote(equation, sorted(occurring, key=algebraics.index), variables)
+        states.remove(demoted)
+        result.append(Equation(_total_derivative(equation, demoted, set(occurring), variables), equation.origin))
+    return tuple(states), result
+
+
+def _demote(equation: Equation, candidates: list[str], variables: Mapping[str, Variable]) -> str:
+    """The one of ``candidates`` that the equation is to define: it must be linear in it, and its start value free."""
+    for name in candidates:
+        slope = equation.residual.diff(symbol(name))
+        if not variables[name].fixed and not slope.has(symbol(name)):
+            return name
+    raise BuildError(
+        f"{equation.origin}: this equation ties the states {', '.join(candidates)} to each other, and each has a fixed"
+        " start value: index reduction is not supported; drop fixed=true from the one that follows from the others"
+    )
+
+
+def _total_derivative(
+    equation: Equation, demoted: str, occurring: set[str], variables: Mapping[str, Variable]
+) -> sympy.Expr:
+    """der(demoted) less what the chain rule makes of it."""
+    residual = equation.residual
+    moving = {name for name in occurring if name != demoted}
+    for s in residual.free_symbols:
+        if s.name in variables and variables[s.name].causality == "input":
+            raise BuildError(f"{equation.origin}: this needs the time derivative of the input {s.name}: not supported")
+    rates = sum((residual.diff(symbol(n)) * symbol(der(n)) for n in sorted(moving)), residual.diff(symbol(TIME)))
+    return symbol(der(demoted)) + rates / residual.diff(symbol(demoted))

@@ -1,0 +1,163 @@
+"""Modelica text to a FlatModel. Every touch of rumoca is in this module.
+
+rumoca (pinned exactly, see docs/dependencies.md) parses, resolves, checks and flattens. We read its flat form, a JSON
+tree. Two of its habits are handled here: many of its errors carry no place, so we look the offending name up in the
+sources; and it reads every .mo file beside the one it is given, as Modelica's directory rules allow.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import rumoca
+import sympy
+
+from .errors import BuildError
+from .expressions import ExpressionReader, Sources, unwrap
+from .ir import Equation, Experiment, FlatModel, Variable
+
+UNSUPPORTED_SECTIONS = {
+    "initial_equations": "initial equations",
+    "algorithms": "algorithm sections",
+    "initial_algorithms": "initial algorithm sections",
+    "when_chains": "when equations",
+    "assert_equations": "assert",
+    "initial_assert_equations": "assert",
+    "functions": "functions",
+}
+
+
+def flatten(path: Path, class_name: str) -> FlatModel:
+    """The class ``class_name`` of the Modelica file or library folder ``path``, flattened.
+
+    Raises BuildError, with file and line, where the Modelica does not compile or uses what is not supported.
+    """
+    entry = path / "package.mo" if path.is_dir() else path
+    if not entry.is_file():
+        raise BuildError(f"{entry}: no such Modelica file; give a .mo file or a library's folder with its package.mo")
+    try:
+        model = rumoca.Session().load(str(entry), model=class_name)
+        flat = model.to_dict("flat")
+        files = model.to_dict("dae")["source_map"]["files"]
+    except rumoca.RumocaError as error:
+        raise BuildError(_located_message(error, entry, class_name)) from None
+    sources = Sources({file_id: (name, text) for file_id, name, text in files}, root=entry.parent)
+    _refuse_unsupported_sections(flat, sources)
+    reader = ExpressionReader(sources)
+    constants = _constants(flat["variables"], reader)
+    variables = tuple(_variable(node, flat, reader, constants) for node in flat["variables"].values())
+    equations = tuple(
+        Equation(reader.read(node["residual"]).subs(constants), _equation_origin(node, sources))
+        for node in flat["equations"]
+    )
+    return FlatModel(
+        name=class_name,
+        description=flat["model_description"] or "",
+        variables=tuple(v for v in variables if v.variability != "constant"),
+        equations=equations,
+        relations=tuple(reader.relations),
+        experiment=_experiment(class_name, sources),
+    )
+
+
+def _refuse_unsupported_sections(flat: dict[str, Any], sources: Sources) -> None:
+    for key, what in UNSUPPORTED_SECTIONS.items():
+        if content := flat.get(key):
+            first = next(iter(content.values())) if isinstance(content, dict) else content[0]
+            raise BuildError(f"{sources.find_place(first)}: {what}: not supported")
+
+
+def _constants(nodes: dict[str, Any], reader: ExpressionReader) -> dict[sympy.Symbol, sympy.Expr]:
+    """Values of Modelica constants: they are put in wherever their names stand."""
+    constants: dict[sympy.Symbol, sympy.Expr] = {}
+    for name, node in nodes.items():
+        if unwrap(node["variability"]) == "Constant" and node["binding"] is not None:
+            constants[sympy.Symbol(name, real=True)] = reader.read(node["binding"]).subs(constants)
+    return constants
+
+
+def _variable(
+    node: dict[str, Any], flat: dict[str, Any], reader: ExpressionReader, constants: dict[sympy.Symbol, sympy.Expr]
+) -> Variable:
+    name, origin = node["name"], reader.sources.place(node["source_span"])
+    if node["dims"]:
+        raise BuildError(f"{origin}: array {name}: not supported, write scalar variables instead")
+    type_name = flat["variable_type_names"].get(name, "Real")
+    if type_name != "Real":
+        raise BuildError(f"{origin}: {name} is of type {type_name}: only Real is supported")
+
+    def expression(key: str) -> sympy.Expr | None:
+        return None if node[key] is None else reader.read(node[key]).subs(constants)
+
+    def number(key: str) -> float | None:
+        value = expression(key)
+        if value is not None and not value.is_number:
+            raise BuildError(f"{origin}: {key} of {name} is {value}: only a number is supported")
+        return None if value is None else float(value)
+
+    is_top_level = "." not in name
+    causality = unwrap(node["causality"]).lower()
+    fixed = node["fixed"]
+    return Variable(
+        name=name,
+        description=node["description"] or "",
+        unit=node["unit"] or "",
+        quantity=node["quantity"] or "",
+        causality=causality if is_top_level and causality in {"input", "output"} else "local",
+        variability={"Parameter": "parameter", "Constant": "constant"}.get(unwrap(node["variability"]), "continuous"),
+        start=expression("start"),
+        fixed=bool(fixed[0] if isinstance(fixed, list) else fixed),
+        binding=expression("binding"),
+        min=number("min"),
+        max=number("max"),
+        nominal=number("nominal"),
+        hidden=bool(node["is_protected"]),
+        final=bool(flat["variable_final_flags"].get(name, False)),
+        origin=origin,
+    )
+
+
+def _equation_origin(node: dict[str, Any], sources: Sources) -> str:
+    kind, detail = next(iter(node["origin"].items())) if isinstance(node["origin"], dict) else (node["origin"], {})
+    if kind == "Connection":
+        return f"connect({detail['lhs']}, {detail['rhs']})"
+    if kind == "FlowSum":
+        return str(detail["description"])
+    return sources.place(node["span"])
+
+
+def _experiment(class_name: str, sources: Sources) -> Experiment:
+    """The experiment annotation, from the class's own text: rumoca's flat form leaves annotations out."""
+    short_name = re.escape(class_name.rpartition(".")[2])
+    for text in sources.texts():
+        body = re.search(rf"\b(?:model|block|class)\s+{short_name}\b.*?\bend\s+{short_name}\s*;", text, re.DOTALL)
+        annotation = body and re.search(r"\bexperiment\s*\(([^)]*)\)", body.group(0))
+        if annotation:
+            pairs = re.findall(r"(\w+)\s*=\s*([-+.\deE]+)", annotation.group(1))
+            values = {key: float(value) for key, value in pairs}
+            return Experiment(*(values.get(key) for key in ("StartTime", "StopTime", "Tolerance", "Interval")))
+    return Experiment()
+
+
+def _located_message(error: Exception, entry: Path, class_name: str) -> str:
+    """One line with file and line for a rumoca error."""
+    first_line = str(error).splitlines()[0]
+    message = re.sub(r"^\S+ could not be compiled: |^\w+ failed: \S+ failed in \w+: ", "", first_line)
+    if place := re.search(r" \[(\S+:\d+):\d+\]", message):
+        return f"{place.group(1)}: {message.replace(place.group(0), '')}"
+    files = sorted(entry.parent.rglob("*.mo")) if entry.name == "package.mo" else [entry]
+    for file in files:
+        for diagnostic in rumoca.validate(str(file)):
+            if place := re.search(r"\[(.+?:\d+):\d+\]", diagnostic.message):
+                return f"{place.group(1)}: {message}"
+    if name := re.search(r"'([^']+)'", message):
+        word = re.compile(rf"(?<![\w.]){re.escape(name.group(1))}\b")
+        for file in files:
+            for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), start=1):
+                if word.search(line.partition("//")[0]):
+                    return f"{file}:{number}: {message}"
+    if "resolve/parse failed" in message:
+        return f"{entry}: no class {class_name} in it"
+    return f"{entry}: {class_name}: {message}"

@@ -1,0 +1,65 @@
+"""Exact partial derivatives of a SortedModel, assignment by assignment (forward accumulation).
+
+Each assignment on the way from a state to a derivative contributes the chain rule over its own arguments. What comes
+out as a number or a single name is passed on as it is; the rest becomes a local assignment, so that the C stays
+readable.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import sympy
+
+from .ir import TIME, Assignment, JacobianModel, SortedModel, symbol
+from .slices import needed_for
+
+
+def differentiate(model: SortedModel) -> JacobianModel:
+    """The derivatives of ``model.derivatives`` by each state and by time, between events."""
+    seeds = (*model.states, TIME)
+    gradients: dict[str, dict[str, sympy.Expr]] = {seed: {seed: sympy.Integer(1)} for seed in seeds}
+    locals_: list[Assignment] = []
+    for assignment in needed_for(model.derivatives, model):
+        gradients[assignment.target] = _gradient(assignment, gradients, seeds, locals_)
+    states = {name: column for column, name in enumerate(model.states)}
+    entries, time_entries = {}, {}
+    for row, name in enumerate(model.derivatives):
+        for seed, value in gradients[name].items():
+            if seed == TIME:
+                time_entries[row] = value
+            else:
+                entries[row, states[seed]] = value
+    return JacobianModel(_used(locals_, (*entries.values(), *time_entries.values())), entries, time_entries)
+
+
+def _gradient(
+    assignment: Assignment,
+    gradients: dict[str, dict[str, sympy.Expr]],
+    seeds: tuple[str, ...],
+    locals_: list[Assignment],
+) -> dict[str, sympy.Expr]:
+    arguments = sorted((s for s in assignment.expression.free_symbols if s.name in gradients), key=str)
+    partials = {s.name: assignment.expression.diff(s) for s in arguments}
+    result: dict[str, sympy.Expr] = {}
+    for seed in seeds:
+        value = sum((p * gradients[n][seed] for n, p in partials.items() if seed in gradients[n]), sympy.Integer(0))
+        if value == 0:
+            continue
+        if not (value.is_number or value.is_Symbol):
+            name = f"d({assignment.target})/d({seed})"
+            locals_.append(Assignment(name, value, assignment.origin))
+            value = symbol(name)
+        result[seed] = value
+    return result
+
+
+def _used(locals_: list[Assignment], results: Iterable[sympy.Expr]) -> tuple[Assignment, ...]:
+    """Only the local assignments that reach a result."""
+    wanted = set().union(*(value.free_symbols for value in results))
+    kept: list[Assignment] = []
+    for assignment in reversed(locals_):
+        if symbol(assignment.target) in wanted:
+            kept.append(assignment)
+            wanted |= assignment.expression.free_symbols
+    return tuple(reversed(kept))

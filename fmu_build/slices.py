@@ -1,0 +1,61 @@
+"""What depends on what: slices and dependencies of a SortedModel."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import sympy
+
+from .ir import Assignment, SortedModel, holds, symbol
+
+
+def needed_for(targets: Iterable[str], model: SortedModel) -> tuple[Assignment, ...]:
+    """The assignments, in order, that computing ``targets`` takes."""
+    return _slice({symbol(name) for name in targets}, model.assignments)
+
+
+def needed_for_relations(model: SortedModel) -> tuple[Assignment, ...]:
+    """The assignments, in order, that the residuals of the relations take."""
+    return _slice(set().union(*(r.residual.free_symbols for r in model.relations)), model.assignments)
+
+
+def dependencies(model: SortedModel) -> dict[str, frozenset[str]]:
+    """For each computed variable the states, inputs, parameters and time that it depends on at a fixed time.
+
+    A conditional depends on what its condition depends on.
+    """
+    known = {name: frozenset((name,)) for name in (*model.states, *model.inputs, *model.parameters, "time")}
+    result: dict[str, frozenset[str]] = dict(known)
+    for assignment in model.parameter_assignments:
+        result[assignment.target] = _sources(assignment.expression, model, result)
+    for assignment in model.assignments:
+        result[assignment.target] = _sources(assignment.expression, model, result)
+    return {name: sources for name, sources in result.items() if name not in known}
+
+
+def start_value(name: str, model: SortedModel) -> float:
+    """The start value of a state, parameter or input as a number; 0 where it is calculated or not given."""
+    if name in model.start_values:
+        return model.start_values[name]
+    variable = model.variables.get(name)
+    if variable is None or name not in {*model.parameters, *model.inputs}:
+        return 0.0
+    value = variable.start if variable.binding is None else variable.binding
+    return 0.0 if value is None else float(value)
+
+
+def _sources(expression: sympy.Expr, model: SortedModel, result: dict[str, frozenset[str]]) -> frozenset[str]:
+    symbols = set(expression.free_symbols)
+    for index, relation in enumerate(model.relations):
+        if holds(index) in symbols:
+            symbols |= relation.residual.free_symbols
+    return frozenset().union(*(result.get(s.name, frozenset()) for s in symbols))
+
+
+def _slice(wanted: set[sympy.Symbol], assignments: tuple[Assignment, ...]) -> tuple[Assignment, ...]:
+    kept: list[Assignment] = []
+    for assignment in reversed(assignments):
+        if symbol(assignment.target) in wanted:
+            kept.append(assignment)
+            wanted |= assignment.expression.free_symbols
+    return tuple(reversed(kept))

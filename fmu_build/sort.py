@@ -1,0 +1,100 @@
+"""An EquationSystem to a SortedModel: which equation gives which unknown, and in which order.
+
+Matching (Hopcroft and Karp 1973), then the strongly connected components of the dependencies (Tarjan 1972): each is a
+block that must be solved together. A block of one equation is solved for its unknown, a larger one if it is linear.
+"""
+
+from __future__ import annotations
+
+import networkx as nx
+import sympy
+
+from .errors import BuildError
+from .ir import Assignment, Equation, EquationSystem, SortedModel, Variable, der, symbol
+from .units import per_second
+
+
+def sort(system: EquationSystem) -> SortedModel:
+    """The sorted model; BuildError where unknowns cannot be computed one after another."""
+    model = system.model
+    return SortedModel(
+        name=model.name,
+        description=model.description,
+        experiment=model.experiment,
+        variables=_with_derivatives(system),
+        aliases=system.aliases,
+        states=system.states,
+        inputs=system.inputs,
+        parameters=system.parameters,
+        parameter_assignments=_assignments(list(system.bound_parameters.values()), list(system.bound_parameters)),
+        start_assignments=tuple(
+            Assignment(state, start, next(v.origin for v in model.variables if v.name == state))
+            for state, start in system.starts.items()
+            if not start.is_number
+        ),
+        start_values={state: float(start) for state, start in system.starts.items() if start.is_number},
+        assignments=_assignments(list(system.equations), list(system.unknowns)),
+        relations=system.relations,
+    )
+
+
+def _with_derivatives(system: EquationSystem) -> dict[str, Variable]:
+    variables = {v.name: v for v in system.model.variables}
+    names = {der(name): name for name in variables}
+    for unknown in system.unknowns:
+        if unknown in names:
+            of = variables[names[unknown]]
+            variables[unknown] = Variable(
+                unknown, f"Time derivative of {of.name}", per_second(of.unit), hidden=of.hidden
+            )
+    return variables
+
+
+def _assignments(equations: list[Equation], unknowns: list[str]) -> tuple[Assignment, ...]:
+    matched = _match(equations, unknowns)
+    order = {name: position for position, name in enumerate(unknowns)}
+    needs = nx.DiGraph()
+    needs.add_nodes_from(unknowns)
+    for name, equation in matched.items():
+        needed = sorted(s.name for s in equation.residual.free_symbols if s.name in matched and s.name != name)
+        needs.add_edges_from((other, name) for other in needed)
+    blocks = nx.condensation(needs)
+    members = {node: sorted(blocks.nodes[node]["members"], key=order.__getitem__) for node in blocks}
+    result: list[Assignment] = []
+    for node in nx.lexicographical_topological_sort(blocks, key=lambda n: order[members[n][0]]):
+        result += _solve(members[node], matched)
+    return tuple(result)
+
+
+def _match(equations: list[Equation], unknowns: list[str]) -> dict[str, Equation]:
+    graph = nx.Graph()
+    graph.add_nodes_from(range(len(equations)))
+    graph.add_nodes_from(unknowns)
+    known = set(unknowns)
+    for index, equation in enumerate(equations):
+        names = sorted(s.name for s in equation.residual.free_symbols)
+        graph.add_edges_from((index, name) for name in names if name in known)
+    matching = nx.bipartite.hopcroft_karp_matching(graph, top_nodes=range(len(equations)))
+    for index, equation in enumerate(equations):
+        if index not in matching:
+            raise BuildError(
+                f"{equation.origin}: this equation determines nothing that is not determined already"
+                " (constraints among states would need index reduction: not supported; or there is one equation too many)"
+            )
+    for name in unknowns:
+        if name not in matching:
+            raise BuildError(f"no equation determines {name}")
+    return {name: equations[matching[name]] for name in unknowns}
+
+
+def _solve(names: list[str], matched: dict[str, Equation]) -> list[Assignment]:
+    unknowns = [symbol(name) for name in names]
+    equations = [matched[name] for name in names]
+    places = ", ".join(dict.fromkeys(e.origin for e in equations))
+    slopes = sympy.Matrix([[e.residual.diff(u) for u in unknowns] for e in equations])
+    if slopes.free_symbols & set(unknowns):
+        raise BuildError(f"{places}: not linear in {', '.join(names)}: only linear equations can be solved")
+    rest = [e.residual.subs(dict.fromkeys(unknowns, 0)) for e in equations]
+    is_scalar = len(names) == 1
+    solution = [-rest[0] / slopes[0, 0]] if is_scalar else list(slopes.LUsolve(-sympy.Matrix(rest)))
+    return [Assignment(n, s, e.origin) for n, s, e in zip(names, solution, equations, strict=True)]

@@ -1,0 +1,27 @@
+within OverrunHitch.Components;
+model BrakedVehicle "Rigid body on one lumped braked wheel with a slip tyre"
+  parameter Units.Mass M = 1000 "Mass";
+  parameter Units.MomentOfInertia I = 5 "Polar moment of inertia of the lumped wheels";
+  parameter Units.Radius R = 0.35 "Wheel radius";
+  parameter Units.SlipStiffness C_k = 400000 "Tyre force per unit slip";
+  parameter Units.Velocity V_0(min=0.1) = 40 "Speed at the start";
+  parameter Units.Position x_0 = 0 "Position at the start";
+  Interfaces.Flange hitch "Where the drawbar is attached" annotation(Placement(transformation(extent={{-110,-10},{-90,10}})));
+  Interfaces.TorqueInput brake_torque "Brake torque on the lumped wheels" annotation(Placement(transformation(extent={{-20,80},{20,120}}, rotation=-90)));
+  Body body(M=M, x(start=x_0), v(start=V_0)) "Body" annotation(Placement(transformation(extent={{-20,20},{20,60}})));
+  Tyre tyre(C_k=C_k, R=R) "Tyre" annotation(Placement(transformation(extent={{-20,-40},{20,0}})));
+  Wheel wheel(I=I, omega(start=V_0/R)) "Wheel, rolling without slip at the start" annotation(Placement(transformation(extent={{40,-40},{80,0}})));
+equation
+  connect(hitch, body.hitch) annotation(Line(points={{-100,0},{-60,0},{-60,40},{-20,40}}, color={0,127,0}));
+  connect(body.axle, tyre.axle) annotation(Line(points={{0,20},{0,0}}, color={0,127,0}));
+  connect(tyre.hub, wheel.hub) annotation(Line(points={{0,-20},{0,-60},{60,-60},{60,-40}}, color={95,95,95}));
+  connect(brake_torque, wheel.brake_torque) annotation(Line(points={{0,100},{30,100},{30,-20},{40,-20}}, color={0,0,127}));
+  annotation(
+    Icon(coordinateSystem(extent={{-100,-100},{100,100}}), graphics={
+      Rectangle(extent={{-90,50},{90,-30}}, lineColor={0,60,120}, fillColor={200,220,240}, fillPattern=FillPattern.Solid),
+      Ellipse(extent={{-30,-10},{30,-70}}, lineColor={60,60,60}, fillColor={90,90,90}, fillPattern=FillPattern.Solid),
+      Text(extent={{-100,-75},{100,-105}}, textColor={0,0,255}, textString="%name")}),
+    Documentation(info="<html>
+<p>A car or a trailer: body, tyre and wheel. At the start it rolls without slip at <code>V_0</code>.</p>
+</html>"));
+end BrakedVehicle;

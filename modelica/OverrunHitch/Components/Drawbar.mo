@@ -1,0 +1,37 @@
+within OverrunHitch.Components;
+model Drawbar "Sliding drawbar with damper, clearance and its own stiffness in tension"
+  parameter Units.Stiffness k = 5480 "Stiffness in compression";
+  parameter Units.Stiffness k_t = 548000 "Stiffness in tension";
+  parameter Units.Damping C = 500 "Damper coefficient";
+  parameter Units.Length eps(min=0) = 0 "Clearance (backlash)";
+  Interfaces.Flange front "Joined to the car" annotation(Placement(transformation(extent={{90,-10},{110,10}})));
+  Interfaces.Flange rear "Joined to the trailer" annotation(Placement(transformation(extent={{-110,-10},{-90,10}})));
+  Interfaces.LengthOutput compression "Drawbar compression = rear.s - front.s" annotation(Placement(transformation(extent={{-10,-110},{10,-90}}, rotation=-90)));
+  Units.Velocity v_rel "Rate of compression";
+  Units.Force F_spring "Force of the springs, positive in compression";
+  Units.Force F_h "Hitch force, positive in tension";
+equation
+  compression = rear.s - front.s;
+  v_rel = der(compression);
+  F_spring = if compression > eps then k*(compression - eps) elseif compression < 0 then k_t*compression else 0;
+  F_h = -C*v_rel - F_spring "Paper's equation 5, in its three regimes of section 6";
+  front.f = F_h;
+  rear.f = -F_h;
+  annotation(
+    Icon(coordinateSystem(extent={{-100,-100},{100,100}}), graphics={
+      Line(points={{-90,30},{-50,30},{-40,50},{-20,10},{0,50},{20,10},{40,50},{50,30},{90,30}}, color={0,127,0}),
+      Line(points={{-90,-30},{-20,-30}}, color={0,127,0}),
+      Rectangle(extent={{-20,-10},{30,-50}}, lineColor={0,127,0}, fillColor={220,240,220}, fillPattern=FillPattern.Solid),
+      Line(points={{30,-30},{90,-30}}, color={0,127,0}),
+      Line(points={{-90,30},{-90,-30}}, color={0,127,0}),
+      Line(points={{90,30},{90,-30}}, color={0,127,0}),
+      Text(extent={{-100,100},{100,65}}, textColor={0,0,255}, textString="%name")}),
+    Documentation(info="<html>
+<p>The three regimes of the paper's section 6: beyond the clearance <code>eps</code> the spring <code>k</code> resists
+compression, within the clearance there is no spring force, in tension the drawbar has the stiffness <code>k_t</code>.
+The damper acts in all three. The force is continuous in the compression; its slope jumps at 0 and at
+<code>eps</code>.</p>
+<p>An always acting damper can pull while the drawbar springs back from compression; the paper's does, and so does
+this one.</p>
+</html>"));
+end Drawbar;

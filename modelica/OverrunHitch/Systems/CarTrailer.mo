@@ -1,0 +1,52 @@
+within OverrunHitch.Systems;
+model CarTrailer "Car and trailer with an overrun brake (Sharp 1982)"
+  parameter Units.Mass M_c = 1000 "Mass of the car";
+  parameter Units.Mass M_t = 500 "Mass of the trailer";
+  parameter Units.MomentOfInertia I_c = 5 "Inertia of the car's lumped wheels";
+  parameter Units.MomentOfInertia I_t = 2.5 "Inertia of the trailer's lumped wheels";
+  parameter Units.Radius R_c = 0.35 "Wheel radius of the car";
+  parameter Units.Radius R_t = 0.35 "Wheel radius of the trailer";
+  parameter Units.SlipStiffness C_kc = 400000 "Tyre force per unit slip, car";
+  parameter Units.SlipStiffness C_kt = 200000 "Tyre force per unit slip, trailer";
+  parameter Units.Stiffness k = 5480 "Drawbar stiffness in compression";
+  parameter Units.Stiffness k_t = 548000 "Drawbar stiffness in tension";
+  parameter Units.Damping C = 500 "Drawbar damper coefficient";
+  parameter Units.TorquePerLength r = 16303 "Trailer brake torque per unit of drawbar compression (2.975 m times k)";
+  parameter Units.Length eps(min=0) = 0 "Drawbar clearance (backlash)";
+  parameter Units.Velocity V_0(min=0.1) = 40 "Speed of both vehicles at the start";
+  parameter Units.Length compression_start = 0 "Drawbar compression at the start";
+  Interfaces.TorqueInput brake_torque(min=0) "Brake torque on the car's lumped wheels" annotation(Placement(transformation(extent={{20,80},{60,120}}, rotation=-90)));
+  output Units.Velocity v_car = car.body.v "Speed of the car, positive forward";
+  output Units.Velocity v_trailer = trailer.body.v "Speed of the trailer, positive forward";
+  output Units.Acceleration a_car = car.body.a "Acceleration of the car, positive forward";
+  output Units.Acceleration a_trailer = trailer.body.a "Acceleration of the trailer, positive forward";
+  output Units.Length compression = drawbar.compression "Drawbar compression x_t - x_c, positive when pushed in";
+  output Units.Force F_hitch = car.hitch.f "Hitch force on the car, positive forward: a pushing trailer gives a positive value";
+  output Units.Slip slip_car = car.tyre.slip "Longitudinal slip of the car's wheels, positive when braking";
+  output Units.Slip slip_trailer = trailer.tyre.slip "Longitudinal slip of the trailer's wheels, positive when braking";
+  output Units.Torque trailer_brake_torque = linkage.brake_torque "Brake torque on the trailer's lumped wheels";
+  Components.BrakedVehicle car(M=M_c, I=I_c, R=R_c, C_k=C_kc, V_0=V_0, final x_0=0) "Car" annotation(Placement(transformation(extent={{40,-20},{80,20}})));
+  Components.BrakedVehicle trailer(M=M_t, I=I_t, R=R_t, C_k=C_kt, V_0=V_0, x_0=compression_start) "Trailer" annotation(Placement(transformation(extent={{-80,-20},{-40,20}})));
+  Components.Drawbar drawbar(k=k, k_t=k_t, C=C, eps=eps) "Drawbar" annotation(Placement(transformation(extent={{-20,-20},{20,20}})));
+  Components.BrakeLinkage linkage(r=r, eps=eps) "Linkage from drawbar to trailer brakes" annotation(Placement(transformation(extent={{-20,-70},{-60,-50}})));
+equation
+  connect(drawbar.front, car.hitch) annotation(Line(points={{20,0},{40,0}}, color={0,127,0}));
+  connect(drawbar.rear, trailer.hitch) annotation(Line(points={{-20,0},{-30,0},{-30,30},{-90,30},{-90,0},{-80,0}}, color={0,127,0}));
+  connect(drawbar.compression, linkage.compression) annotation(Line(points={{0,-20},{0,-60},{-20,-60}}, color={0,0,127}));
+  connect(linkage.brake_torque, trailer.brake_torque) annotation(Line(points={{-60,-60},{-95,-60},{-95,40},{-60,40},{-60,20}}, color={0,0,127}));
+  connect(brake_torque, car.brake_torque) annotation(Line(points={{40,100},{60,100},{60,20}}, color={0,0,127}));
+  annotation(
+    experiment(StartTime=0, StopTime=6, Tolerance=1e-6, Interval=0.01),
+    Icon(coordinateSystem(extent={{-100,-100},{100,100}}), graphics={
+      Rectangle(extent={{0,40},{95,-20}}, lineColor={0,60,120}, fillColor={200,220,240}, fillPattern=FillPattern.Solid),
+      Rectangle(extent={{-95,30},{-35,-20}}, lineColor={0,60,120}, fillColor={225,235,245}, fillPattern=FillPattern.Solid),
+      Line(points={{-35,-5},{0,-5}}, color={0,60,120}, thickness=1),
+      Ellipse(extent={{35,-10},{65,-40}}, lineColor={60,60,60}, fillColor={90,90,90}, fillPattern=FillPattern.Solid),
+      Ellipse(extent={{-80,-10},{-50,-40}}, lineColor={60,60,60}, fillColor={90,90,90}, fillPattern=FillPattern.Solid),
+      Text(extent={{-100,-50},{100,-85}}, textColor={0,0,255}, textString="%name")}),
+    Documentation(info="<html>
+<p>Sharp's car and trailer: equations 1 to 8 of the paper, with the drawbar of section 6. Defaults are those of figure 8
+(case ii, C = 500 N.s/m, no clearance), a combination that does not shunt by itself.</p>
+<p>Limits: forward driving above 0.1 m/s, slip up to about 0.1, level road, brakes without friction characteristics.</p>
+</html>"));
+end CarTrailer;

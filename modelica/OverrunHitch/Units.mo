@@ -1,0 +1,26 @@
+within OverrunHitch;
+package Units "Physical quantities with their units and admissible ranges"
+  type Mass = Real(final quantity="Mass", final unit="kg", min=1) "Mass";
+  type MomentOfInertia = Real(final quantity="MomentOfInertia", final unit="kg.m2", min=1e-3) "Polar moment of inertia";
+  type Radius = Real(final quantity="Length", final unit="m", min=0.01) "Radius";
+  type Position = Real(final quantity="Length", final unit="m", nominal=1) "Position along the road";
+  type Length = Real(final quantity="Length", final unit="m") "Length";
+  type Velocity = Real(final quantity="Velocity", final unit="m/s", nominal=1) "Velocity";
+  type Acceleration = Real(final quantity="Acceleration", final unit="m/s2") "Acceleration";
+  type AngularVelocity = Real(final quantity="AngularVelocity", final unit="rad/s", nominal=1) "Angular velocity";
+  type Force = Real(final quantity="Force", final unit="N") "Force";
+  type Torque = Real(final quantity="Torque", final unit="N.m") "Torque";
+  type Stiffness = Real(final quantity="TranslationalSpringConstant", final unit="N/m", min=0) "Stiffness";
+  type Damping = Real(final quantity="TranslationalDampingConstant", final unit="N.s/m", min=0) "Damper coefficient";
+  type SlipStiffness = Real(final quantity="Force", final unit="N", min=1) "Tyre force per unit slip";
+  type TorquePerLength = Real(final quantity="TorquePerLength", final unit="N.m/m", min=0) "Torque per unit length";
+  type Slip = Real(final quantity="Slip", final unit="1") "Longitudinal slip";
+  annotation(
+    Icon(coordinateSystem(extent={{-100,-100},{100,100}}), graphics={
+      Rectangle(extent={{-100,100},{100,-100}}, lineColor={60,60,60}, fillColor={248,248,248}, fillPattern=FillPattern.Solid, radius=10),
+      Text(extent={{-80,60},{80,-60}}, textColor={0,60,120}, textString="SI")}),
+    Documentation(info="<html>
+<p>SI units throughout. The minima of masses, inertias, radii and tyre stiffnesses stand for &quot;greater than zero&quot;:
+they keep a slip of the pen (a zero, a mass in tonnes) from passing as a model.</p>
+</html>"));
+end Units;

@@ -1,0 +1,92 @@
+"""Small Modelica models, written by the tests themselves."""
+
+from __future__ import annotations
+
+import ctypes
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fmu_build.c_model import print_c
+from fmu_build.compile import RUNTIME, WARNINGS, compiler
+from fmu_build.equations import derive
+from fmu_build.frontend import flatten
+from fmu_build.ir import SortedModel
+from fmu_build.jacobian import differentiate
+from fmu_build.slices import start_value
+from fmu_build.sort import sort
+
+Writer = Callable[[str], Path]
+
+
+@pytest.fixture
+def modelica_file(tmp_path: Path) -> Writer:
+    """Write the text of class M to a file of its own folder."""
+
+    def write(text: str) -> Path:
+        path = tmp_path / "M.mo"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+@pytest.fixture
+def sorted_model(modelica_file: Writer) -> Callable[[str], SortedModel]:
+    """Class M of a text, up to the intermediate representation."""
+    return lambda text: sort(derive(flatten(modelica_file(text), "M")))
+
+
+class CompiledModel:
+    """The generated C of a model, without the runtime, behind numpy arrays."""
+
+    def __init__(self, model: SortedModel, folder: Path) -> None:
+        for name, text in print_c(model, differentiate(model), "M").files.items():
+            (folder / name).write_text(text, encoding="utf-8")
+        library = folder / "model.so"
+        flags = ["-std=c11", "-O1", "-fPIC", "-shared", *WARNINGS, "-Werror", f"-I{folder}", f"-I{RUNTIME}"]
+        subprocess.run([*compiler(), *flags, str(folder / "model.c"), "-o", str(library), "-lm"], check=True)
+        self._library = ctypes.CDLL(str(library))
+        self.model = model
+        self.references = model.value_references
+        self.at = np.zeros(len(self.references))
+        for name in (*model.parameters, *model.states, *model.inputs):
+            self.at[self.references[name]] = start_value(name, model)
+        self._call("model_parameters")
+        self._call("model_start")
+
+    def _call(self, function: str, *arrays: np.ndarray) -> None:
+        getattr(self._library, function)(*(ctypes.c_void_p(a.ctypes.data) for a in (self.at, *arrays)))
+
+    def __getitem__(self, name: str) -> float:
+        return float(self.at[self.references[self.model.aliases.get(name, name)]])
+
+    def __setitem__(self, name: str, value: float) -> None:
+        self.at[self.references[self.model.aliases.get(name, name)]] = value
+
+    def relations(self) -> np.ndarray:
+        """Residuals of the relations at the present values."""
+        z = np.zeros(max(1, len(self.model.relations)))
+        self._call("model_relations", z > 0, z)
+        return z
+
+    def outputs(self) -> None:
+        self._call("model_outputs", self.relations() > 0)
+
+    def derivatives(self) -> np.ndarray:
+        self._call("model_derivatives", self.relations() > 0)
+        return np.array([self[name] for name in self.model.derivatives])
+
+    def jacobian(self) -> np.ndarray:
+        count = len(self.model.states)
+        jacobian, time_derivative = np.full((count, count), np.nan), np.full(count, np.nan)
+        self._call("model_jacobian", self.relations() > 0, jacobian, time_derivative)
+        return np.column_stack([jacobian, time_derivative])
+
+
+@pytest.fixture
+def compiled_model(sorted_model: Callable[[str], SortedModel], tmp_path: Path) -> Callable[[str], CompiledModel]:
+    return lambda text: CompiledModel(sorted_model(text), tmp_path)

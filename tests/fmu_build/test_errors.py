@@ -1,0 +1,77 @@
+"""Modelica that does not compile or is not supported: one line with file and line."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from fmu_build.errors import BuildError
+from fmu_build.pipeline import build
+
+from .conftest import Writer
+
+BROKEN = {
+    "syntax": ("model M\n  Real x\nequation\n  x = 1;\nend M;", "M.mo:2", "unexpected"),
+    "unknown variable": ("model M\n  Real x;\nequation\n  x = nope;\nend M;", "M.mo:4", "nope"),
+    "unknown type": ("model M\n  Foo x;\nequation\n  x = 1;\nend M;", "M.mo:2", "Foo"),
+    "unknown modifier": ("model M\n  Real x(nope=3);\nequation\n  x = 1;\nend M;", "M.mo:2", "nope"),
+    "unbalanced": ("model M\n  Real x;\n  Real y;\nequation\n  x = 1;\nend M;", "M.mo", "unbalanced"),
+    "no such class": ("model Other\n  Real x = 1;\nend Other;", "M.mo", "no class M"),
+    "der of an expression": ("model M\n  Real x(start=1);\nequation\n  der(x*x) = 1;\nend M;", "M.mo", "der"),
+    "when": (
+        "model M\n  Real x(start=1);\nequation\n  der(x)=1;\n  when x>2 then\n    reinit(x,0);\n  end when;\nend M;",
+        "M.mo:5",
+        "when",
+    ),
+    "array": ("model M\n  Real x[2];\nequation\n  x[1] = 1;\n  x[2] = 2;\nend M;", "M.mo:2", "array"),
+    "boolean": ("model M\n  Boolean b = time > 1;\nend M;", "M.mo:2", "Boolean"),
+    "nonlinear": ("model M\n  Real x;\nequation\n  x^3 + x = time;\nend M;", "M.mo:4", "linear"),
+    "function": ("model M\n  Real x = abs(time);\nend M;", "M.mo:2", "Abs"),
+    "index": (
+        "model M\n  Real x(start=0, fixed=true);\n  Real y(start=0, fixed=true);\n"
+        "equation\n  der(x) + der(y) = 1;\n  x = 2*y;\nend M;",
+        "M.mo:6",
+        "index reduction",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", BROKEN)
+def test_an_error_names_the_place_and_the_thing(case: str, modelica_file: Writer, tmp_path: Path) -> None:
+    text, place, thing = BROKEN[case]
+    with pytest.raises(BuildError) as caught:
+        build(modelica_file(text), "M", tmp_path / "out" / "M.fmu")
+    message = str(caught.value)
+    assert place in message and thing in message
+    assert "\n" not in message
+    assert not (tmp_path / "out").exists()
+
+
+def run_command(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "fmu_build", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=False, env=environment or None)
+
+
+def test_the_command_line_ends_in_status_2_and_one_line(tmp_path: Path) -> None:
+    output = tmp_path / "out.fmu"
+    result = run_command(str(tmp_path / "none.mo"), "M", "-o", str(output))
+    assert (result.returncode, result.stderr.count("\n")) == (2, 1)
+    assert "none.mo" in result.stderr and not output.exists()
+
+
+def test_without_a_compiler(modelica_library: Path, tmp_path: Path) -> None:
+    output = tmp_path / "out.fmu"
+    arguments = (str(modelica_library), "OverrunHitch.Systems.CarTrailer", "-o", str(output))
+    result = run_command(*arguments, CC="no-such-compiler", PATH="")
+    assert (result.returncode, result.stderr.count("\n")) == (2, 1)
+    assert "no C compiler" in result.stderr and list(tmp_path.iterdir()) == []
+
+
+def test_an_output_that_cannot_be_written(modelica_file: Writer, tmp_path: Path) -> None:
+    source = modelica_file("model M\n  Real x(start=1, fixed=true);\nequation\n  der(x) = -x;\nend M;")
+    (tmp_path / "file").write_text("")
+    result = run_command(str(source), "M", "-o", str(tmp_path / "file" / "M.fmu"))
+    assert (result.returncode, result.stderr.count("\n")) == (2, 1)
