@@ -10,7 +10,7 @@ import sympy
 from sympy.printing.c import C11CodePrinter
 
 from .ir import DEFAULT_TOLERANCE, TIME, Assignment, CSources, JacobianModel, SortedModel, Variable
-from .slices import needed_for, needed_for_relations, start_value
+from .slices import needed_for, needed_for_relations, start_value, tunable_parameters
 
 TOKEN_PLACEHOLDER = "{00000000-0000-0000-0000-000000000000}"
 C_KEYWORDS = frozenset(C11CodePrinter.reserved_words) | {"inline", "restrict", "bool", "true", "false", "at"}
@@ -67,7 +67,7 @@ class _Printer(C11CodePrinter):  # type: ignore[misc]
 
     def _print_Piecewise(self, expr: sympy.Piecewise) -> str:
         *branches, (last, _) = expr.args
-        text = self._print(last)
+        text = str(self._print(last))
         for value, condition in reversed(branches):
             text = f"({self._print(condition)} ? {self._print(value)} : {text})"
         return text
@@ -113,7 +113,8 @@ typedef union {{
 
 def _model(model: SortedModel, jacobian: JacobianModel, printer: _Printer) -> str:
     relations = ", ".join(_string(f"{r.text} ({r.origin})") for r in model.relations) or '""'
-    rows = "\n".join(_info(name, model) for name in model.value_references)
+    kinds = _kinds(model)
+    rows = "\n".join(_info(name, kinds[name], model) for name in model.value_references)
     outputs = _lines(model.assignments, printer)
     derivatives = _lines(needed_for(model.derivatives, model), printer)
     residuals = [f"z[{i}] = {printer.text(r.residual)};" for i, r in enumerate(model.relations)]
@@ -176,7 +177,7 @@ def _jacobian(model: SortedModel, jacobian: JacobianModel, printer: _Printer) ->
     return _function(signature, [line for line in lines if line])
 
 
-def _info(name: str, model: SortedModel) -> str:
+def _info(name: str, kind: str, model: SortedModel) -> str:
     variable = model.variables.get(name, Variable(name, unit="s" if name == TIME else ""))
     numbers = ", ".join(
         _number(value)
@@ -187,21 +188,24 @@ def _info(name: str, model: SortedModel) -> str:
             1.0 if variable.nominal is None else abs(variable.nominal),
         )
     )
-    return f"    {{{_string(name)}, {_string(variable.unit)}, {_kind(name, model)}, {numbers}}},"
+    return f"    {{{_string(name)}, {_string(variable.unit)}, {kind}, {numbers}}},"
 
 
-def _kind(name: str, model: SortedModel) -> str:
-    calculated_starts = {a.target for a in model.start_assignments}
+def _kinds(model: SortedModel) -> dict[str, str]:
+    """The VariableKind of every variable; where two apply, the later one."""
+    calculated_starts = [a.target for a in model.start_assignments]
     kinds: dict[str, Iterable[str]] = {
+        "OTHER": model.value_references,
         "TIME": (TIME,),
-        "STATE_CALCULATED": calculated_starts,
         "STATE": model.states,
+        "STATE_CALCULATED": calculated_starts,
         "DERIVATIVE": model.derivatives,
         "INPUT": model.inputs,
-        "PARAMETER": model.parameters,
+        "FIXED_PARAMETER": model.parameters,
+        "PARAMETER": tunable_parameters(model),
         "CALCULATED_PARAMETER": (a.target for a in model.parameter_assignments),
     }
-    return next((kind for kind, names in kinds.items() if name in names), "OTHER")
+    return {name: kind for kind, names in kinds.items() for name in names}
 
 
 def _number(value: float) -> str:

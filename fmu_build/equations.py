@@ -30,7 +30,7 @@ def derive(model: FlatModel) -> EquationSystem:
     values = _constants_and_roots(variables, aliases)
     relations, truths = _unique_relations(model.relations, values)
     replacements = {**values, **truths}
-    reduced = [Equation(e.residual.subs(replacements), e.origin) for e in equations]
+    reduced = [Equation(e.residual.xreplace(replacements), e.origin) for e in equations]
     reduced = [e for e in reduced if e.residual != 0]
     parameters, bound = _parameters(variables, aliases, replacements)
     inputs = tuple(v.name for v in model.variables if v.causality == "input")
@@ -51,7 +51,7 @@ def derive(model: FlatModel) -> EquationSystem:
         relations=relations,
         parameters=parameters,
         bound_parameters=bound,
-        starts={name: start.subs(values) for name in states if (start := variables[name].start) is not None},
+        starts={name: start.xreplace(values) for name in states if (start := variables[name].start) is not None},
         aliases=aliases,
     )
 
@@ -111,10 +111,10 @@ def _unique_relations(
     """Relations with equal residuals are one, so that they switch together."""
     unique: dict[sympy.Expr, Relation] = {}
     for relation in relations:
-        residual = relation.residual.subs(values)
+        residual = relation.residual.xreplace(values)
         unique.setdefault(residual, Relation(residual, relation.text, relation.origin))
     positions = {residual: index for index, residual in enumerate(unique)}
-    truths = {holds(i): holds(positions[r.residual.subs(values)]) for i, r in enumerate(relations)}
+    truths = {holds(i): holds(positions[r.residual.xreplace(values)]) for i, r in enumerate(relations)}
     return tuple(unique.values()), truths
 
 
@@ -130,7 +130,7 @@ def _parameters(
         if v.binding is None or v.binding.is_number:
             settable.append(v.name)
         else:
-            bound[v.name] = Equation(symbol(v.name) - v.binding.subs(replacements), v.origin)
+            bound[v.name] = Equation(symbol(v.name) - v.binding.xreplace(replacements), v.origin)
     return tuple(settable), bound
 
 

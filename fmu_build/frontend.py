@@ -49,7 +49,7 @@ def flatten(path: Path, class_name: str) -> FlatModel:
     constants = _constants(flat["variables"], reader)
     variables = tuple(_variable(node, flat, reader, constants) for node in flat["variables"].values())
     equations = tuple(
-        Equation(reader.read(node["residual"]).subs(constants), _equation_origin(node, sources))
+        Equation(reader.read(node["residual"]).xreplace(constants), _equation_origin(node, sources))
         for node in flat["equations"]
     )
     return FlatModel(
@@ -74,7 +74,7 @@ def _constants(nodes: dict[str, Any], reader: ExpressionReader) -> dict[sympy.Sy
     constants: dict[sympy.Symbol, sympy.Expr] = {}
     for name, node in nodes.items():
         if unwrap(node["variability"]) == "Constant" and node["binding"] is not None:
-            constants[sympy.Symbol(name, real=True)] = reader.read(node["binding"]).subs(constants)
+            constants[sympy.Symbol(name, real=True)] = reader.read(node["binding"]).xreplace(constants)
     return constants
 
 
@@ -89,7 +89,7 @@ def _variable(
         raise BuildError(f"{origin}: {name} is of type {type_name}: only Real is supported")
 
     def expression(key: str) -> sympy.Expr | None:
-        return None if node[key] is None else reader.read(node[key]).subs(constants)
+        return None if node[key] is None else reader.read(node[key]).xreplace(constants)
 
     def number(key: str) -> float | None:
         value = expression(key)

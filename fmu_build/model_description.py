@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from lxml import etree
 
 from .ir import DEFAULT_TOLERANCE, TIME, SortedModel, Variable
-from .slices import dependencies, start_value
+from .slices import dependencies, start_value, tunable_parameters
 from .units import base_unit
 
 GENERATION_TOOL = "OverrunHitch fmu_build"
@@ -16,6 +16,9 @@ LOG_CATEGORIES = {
     "logStatusWarning": "Warnings",
     "logEvents": "Times at which relations switch",
 }
+
+
+Role = tuple[str, str, str | None]  # causality, variability, initial
 
 
 def describe(model: SortedModel, identifier: str, token: str) -> bytes:
@@ -38,9 +41,10 @@ def describe(model: SortedModel, identifier: str, token: str) -> bytes:
         etree.SubElement(categories, "Category", name=name, description=description)
     _default_experiment(root, model)
     listing = etree.SubElement(root, "ModelVariables")
+    roles = _roles(variables, model)
     for variable in variables:
-        _scalar_variable(listing, variable, model, index)
-    _structure(root, model, index)
+        _scalar_variable(listing, variable, roles[variable.name], model, index)
+    _structure(root, model, roles, index)
     return bytes(etree.tostring(root, xml_declaration=True, encoding="UTF-8", pretty_print=True))
 
 
@@ -81,13 +85,15 @@ def _default_experiment(root: etree._Element, model: SortedModel) -> None:
     etree.SubElement(root, "DefaultExperiment", {k: repr(v) for k, v in values.items() if v is not None})
 
 
-def _scalar_variable(listing: etree._Element, variable: Variable, model: SortedModel, index: dict[str, int]) -> None:
+def _scalar_variable(
+    listing: etree._Element, variable: Variable, role: Role, model: SortedModel, index: dict[str, int]
+) -> None:
     name = variable.name
     root = model.aliases.get(name, name)
     attributes = {"name": name, "valueReference": str(model.value_references[root])}
     if variable.description:
         attributes["description"] = variable.description
-    causality, variability, initial = _roles(variable, model)
+    causality, variability, initial = role
     attributes |= {"causality": causality, "variability": variability} | ({"initial": initial} if initial else {})
     element = etree.SubElement(listing, "ScalarVariable", attributes)
     real = {"unit": variable.unit, "quantity": variable.quantity}
@@ -103,31 +109,40 @@ def _scalar_variable(listing: etree._Element, variable: Variable, model: SortedM
     etree.SubElement(element, "Real", {key: value for key, value in real.items() if value})
 
 
-def _roles(variable: Variable, model: SortedModel) -> tuple[str, str, str | None]:
-    """causality, variability, initial"""
-    name = variable.name
-    if name == TIME:
-        return "independent", "continuous", None
-    if name in model.inputs:
-        return "input", "continuous", None
-    if variable.variability == "parameter":
-        is_settable = name in model.parameters
-        return ("parameter", "fixed", "exact") if is_settable else ("calculatedParameter", "fixed", "calculated")
-    has_exact_start = name in model.states and name not in {a.target for a in model.start_assignments}
-    return variable.causality, "continuous", "exact" if has_exact_start else "calculated"
+def _roles(variables: list[Variable], model: SortedModel) -> dict[str, Role]:
+    tunable = tunable_parameters(model)
+    exact_starts = {*model.states} - {a.target for a in model.start_assignments}
+
+    def role(variable: Variable) -> Role:
+        name = variable.name
+        if name == TIME:
+            return "independent", "continuous", None
+        if name in model.inputs:
+            return "input", "continuous", None
+        if variable.variability == "parameter":
+            variability = "tunable" if name in tunable else "fixed"
+            is_settable = name in model.parameters
+            return ("parameter" if is_settable else "calculatedParameter"), variability, _initial(is_settable)
+        return variable.causality, "continuous", _initial(name in exact_starts)
+
+    return {variable.name: role(variable) for variable in variables}
 
 
-def _structure(root: etree._Element, model: SortedModel, index: dict[str, int]) -> None:
+def _initial(is_exact: bool) -> str:
+    return "exact" if is_exact else "calculated"
+
+
+def _structure(root: etree._Element, model: SortedModel, roles: dict[str, Role], index: dict[str, int]) -> None:
     """ModelStructure: what depends on what, at a fixed time and at the start."""
     structure = etree.SubElement(root, "ModelStructure")
     sources = dependencies(model)
-    outputs = [v.name for v in model.variables.values() if v.causality == "output"]
+    outputs = [name for name, (causality, _, _) in roles.items() if causality == "output"]
     during = {*model.states, *model.inputs, TIME}
 
     def unknowns(tag: str, entries: dict[str, frozenset[str]]) -> None:
         element = etree.SubElement(structure, tag)
         for name, needed in entries.items():
-            numbers = " ".join(str(i) for i in sorted(index[n] for n in needed))
+            numbers = " ".join(str(i) for i in sorted(index[n] for n in needed if n in index))
             etree.SubElement(element, "Unknown", index=str(index[name]), dependencies=numbers)
 
     def now(name: str) -> frozenset[str]:
@@ -139,7 +154,7 @@ def _structure(root: etree._Element, model: SortedModel, index: dict[str, int]) 
         unknowns("Derivatives", {name: now(name) & during for name in model.derivatives})
     starts = _start_sources(model, sources)
     calculated = [a.target for a in model.parameter_assignments if not model.variables[a.target].hidden]
-    computed_outputs = [name for name in outputs if _roles(model.variables[name], model)[2] == "calculated"]
+    computed_outputs = [name for name in outputs if roles[name][2] == "calculated"]
     initial = [*computed_outputs, *calculated, *starts, *model.derivatives]
     entries = {name: frozenset().union(*(starts.get(n, {n}) for n in now(name))) for name in initial}
     unknowns("InitialUnknowns", dict(sorted(entries.items(), key=lambda entry: index[entry[0]])))

@@ -33,6 +33,14 @@ def dependencies(model: SortedModel) -> dict[str, frozenset[str]]:
     return {name: sources for name, sources in result.items() if name not in known}
 
 
+def tunable_parameters(model: SortedModel) -> frozenset[str]:
+    """The parameters, calculated ones included, that more than start values depend on: changing them has an effect."""
+    sources = dependencies(model)
+    effective = frozenset().union(*(sources[a.target] for a in model.assignments)) & {*model.parameters}
+    calculated = {a.target for a in model.parameter_assignments if sources[a.target] & effective}
+    return effective | calculated
+
+
 def start_value(name: str, model: SortedModel) -> float:
     """The start value of a state, parameter or input as a number; 0 where it is calculated or not given."""
     if name in model.start_values:

@@ -79,7 +79,7 @@ def _match(equations: list[Equation], unknowns: list[str]) -> dict[str, Equation
         if index not in matching:
             raise BuildError(
                 f"{equation.origin}: this equation determines nothing that is not determined already"
-                " (constraints among states would need index reduction: not supported; or there is one equation too many)"
+                " (a constraint among states, which would need index reduction, or one equation too many)"
             )
     for name in unknowns:
         if name not in matching:
@@ -94,7 +94,7 @@ def _solve(names: list[str], matched: dict[str, Equation]) -> list[Assignment]:
     slopes = sympy.Matrix([[e.residual.diff(u) for u in unknowns] for e in equations])
     if slopes.free_symbols & set(unknowns):
         raise BuildError(f"{places}: not linear in {', '.join(names)}: only linear equations can be solved")
-    rest = [e.residual.subs(dict.fromkeys(unknowns, 0)) for e in equations]
+    rest = [e.residual.xreplace(dict.fromkeys(unknowns, sympy.Integer(0))) for e in equations]
     is_scalar = len(names) == 1
     solution = [-rest[0] / slopes[0, 0]] if is_scalar else list(slopes.LUsolve(-sympy.Matrix(rest)))
     return [Assignment(n, s, e.origin) for n, s, e in zip(names, solution, equations, strict=True)]

@@ -7,7 +7,7 @@ package Units "Physical quantities with their units and admissible ranges"
   type Length = Real(final quantity="Length", final unit="m") "Length";
   type Velocity = Real(final quantity="Velocity", final unit="m/s", nominal=1) "Velocity";
   type Acceleration = Real(final quantity="Acceleration", final unit="m/s2") "Acceleration";
-  type AngularVelocity = Real(final quantity="AngularVelocity", final unit="rad/s", nominal=1) "Angular velocity";
+  type AngularVelocity = Real(final quantity="AngularVelocity", final unit="rad/s", nominal=3) "Angular velocity";
   type Force = Real(final quantity="Force", final unit="N") "Force";
   type Torque = Real(final quantity="Torque", final unit="N.m") "Torque";
   type Stiffness = Real(final quantity="TranslationalSpringConstant", final unit="N/m", min=0) "Stiffness";
@@ -22,5 +22,7 @@ package Units "Physical quantities with their units and admissible ranges"
     Documentation(info="<html>
 <p>SI units throughout. The minima of masses, inertias, radii and tyre stiffnesses stand for &quot;greater than zero&quot;:
 they keep a slip of the pen (a zero, a mass in tonnes) from passing as a model.</p>
+<p>A simulator's absolute tolerance follows the nominal values: 1 m, 1 m/s, and 3 rad/s because a wheel of a third of a
+metre then weighs an error of slip as it weighs one of speed.</p>
 </html>"));
 end Units;

@@ -43,6 +43,12 @@ def test_every_variable_has_a_unit_with_base_exponents_and_a_description(car_tra
     assert (force.kg, force.m, force.s, force.A) == (1, 1, -2, 0)
 
 
+def test_parameters_of_start_values_alone_are_fixed_and_the_others_tunable(car_trailer_fmu: Path) -> None:
+    description = fmpy.read_model_description(str(car_trailer_fmu))
+    fixed = {v.name for v in description.modelVariables if v.causality == "parameter" and v.variability == "fixed"}
+    assert fixed == {"V_0", "compression_start"}
+
+
 def test_dependencies_are_those_of_the_equations(car_trailer_fmu: Path) -> None:
     description = fmpy.read_model_description(str(car_trailer_fmu))
     depends = {u.variable.name: {v.name for v in u.dependencies} for u in description.outputs}
@@ -113,3 +119,19 @@ def test_an_fmu_of_another_model_against_its_closed_form(tmp_path: Path) -> None
         str(output), stop_time=4, output_interval=0.5, start_values={"T": 1.5, "u": 1.0}, relative_tolerance=1e-9
     )
     np.testing.assert_allclose(result["x"], 1 + 2 * np.exp(-result["time"] / 1.5), rtol=1e-8)
+
+
+def test_protected_parameters_and_states_do_not_disturb(tmp_path: Path) -> None:
+    source = tmp_path / "Hidden.mo"
+    source.write_text(
+        'model Hidden\n  parameter Real a(unit="1/s") = 2;\n  parameter Real b(unit="1/s") = 3*a + c;\n'
+        '  output Real y(unit="1");\nprotected\n  parameter Real c(unit="1/s") = 1;\n'
+        '  Real x(unit="1", start=a, fixed=true);\nequation\n  der(x) = -b*x;\n  y = 2*x;\nend Hidden;\n'
+    )
+    output = tmp_path / "Hidden.fmu"
+    build(source, "Hidden", output)
+    assert validate_fmu(str(output)) == []
+    names = [v.name for v in fmpy.read_model_description(str(output)).modelVariables]
+    assert names == ["time", "a", "b", "y", "x", "der(x)"]
+    result = fmpy.simulate_fmu(str(output), stop_time=1, output_interval=0.1, start_values={"a": 1.0})
+    np.testing.assert_allclose(result["y"], 2 * np.exp(-4 * result["time"]), rtol=1e-5)

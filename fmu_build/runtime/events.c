@@ -1,0 +1,136 @@
+#include "events.h"
+
+#include <float.h>
+#include <math.h>
+
+/* Points of a step at which the truths are looked at: a surface crossed and crossed back between two of them is taken
+ * not to have been crossed. */
+enum { SAMPLES = 4 };
+
+/* Events in a row that may happen in one thousandth of a communication step. */
+enum { BATCH = 100 };
+static const double BATCH_SHARE = 1e-3;
+
+enum { NO_RELATION = -1 };
+
+static int changed_relation(Variables *v, const bool holds[], double z[])
+{
+    model_relations(v, holds, z);
+    for (int i = 0; i < N_RELATIONS; i++) {
+        if ((z[i] > 0.0) != holds[i]) {
+            return i;
+        }
+    }
+    return NO_RELATION;
+}
+
+bool events_settle(Variables *v, bool holds[], Message *why)
+{
+    double z[AT_LEAST_ONE(N_RELATIONS)];
+    int changed = NO_RELATION;
+    for (int round = 0; round < 2 * N_RELATIONS + 2; round++) {
+        changed = changed_relation(v, holds, z);
+        if (changed == NO_RELATION) {
+            return true;
+        }
+        for (int i = 0; i < N_RELATIONS; i++) {
+            holds[i] = z[i] > 0.0;
+        }
+    }
+    message_write(why, "the relation %s does not settle at t = %s: its truth depends on itself", relation_text[changed],
+                  quantity(v->time, "s").text);
+    return false;
+}
+
+/* Residuals at a point of the trial. */
+static bool changed_at(const Rodas *r, double fraction, Variables *v, const bool holds[], double z[])
+{
+    v->time = r->time + fraction * r->length;
+    rodas_dense(r, fraction, &v->at[FIRST_STATE]);
+    return changed_relation(v, holds, z) != NO_RELATION;
+}
+
+/* The truths where a trial leaves the surfaces on which it starts; false if it starts on none of those that it crosses
+ * before the point where the residuals are z. */
+static bool leaves_surface(const Rodas *r, Variables *v, const bool holds[], const double z[], bool truths[])
+{
+    double start[AT_LEAST_ONE(N_RELATIONS)];
+    bool leaves = false;
+    (void)changed_at(r, 0.0, v, holds, start);
+    for (int i = 0; i < N_RELATIONS; i++) {
+        const bool truth = z[i] > 0.0;
+        const bool changes = truth != holds[i] && start[i] == 0.0;
+        truths[i] = changes ? truth : holds[i];
+        leaves = leaves || changes;
+    }
+    return leaves;
+}
+
+/* Bisection: it needs nothing of the residuals but their signs, and fifty evaluations of the relations cost about as
+ * much as a few steps. Several relations may change; what is found is a point where some truth has changed. */
+static double bisect(const Rodas *r, double before, double behind, Variables *v, const bool holds[])
+{
+    double z[AT_LEAST_ONE(N_RELATIONS)];
+    const double rounding = DBL_EPSILON * fmax(fabs(r->time), fabs(r->time + r->length)) / r->length;
+    while (behind - before > fmax(rounding, DBL_EPSILON * behind)) {
+        const double middle = 0.5 * (before + behind);
+        if (changed_at(r, middle, v, holds, z)) {
+            behind = middle;
+        } else {
+            before = middle;
+        }
+    }
+    return behind;
+}
+
+bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving, Event *event)
+{
+    double z[AT_LEAST_ONE(N_RELATIONS)];
+    int sample = 1;
+    if (N_RELATIONS == 0) {
+        return false;
+    }
+    while (!changed_at(r, (double)sample / SAMPLES, v, holds, z)) {
+        if (sample == SAMPLES) {
+            return false;
+        }
+        sample++;
+    }
+    if (leaving && sample == 1 && leaves_surface(r, v, holds, z, event->truths)) {
+        event->fraction = 0.0;
+        return true;
+    }
+    event->fraction = bisect(r, (double)(sample - 1) / SAMPLES, (double)sample / SAMPLES, v, holds);
+    (void)changed_at(r, event->fraction, v, holds, z);
+    for (int i = 0; i < N_RELATIONS; i++) {
+        event->truths[i] = z[i] > 0.0;
+    }
+    return true;
+}
+
+EventDensity events_watch(double time, double target)
+{
+    return (EventDensity){.span = BATCH_SHARE * (target - time), .since = time, .count = 0};
+}
+
+bool events_too_dense(EventDensity *density, double time, const bool before[], const bool after[], Message *why)
+{
+    if (density->count == 0) {
+        density->since = time;
+    }
+    density->count++;
+    if (density->count < BATCH) {
+        return false;
+    }
+    density->count = 0;
+    const bool dense = time - density->since < density->span;
+    if (dense) {
+        int changed = 0;
+        while (changed < N_RELATIONS - 1 && before[changed] == after[changed]) {
+            changed++;
+        }
+        message_write(why, "the relation %s is chattering at t = %s: it changes without end", relation_text[changed],
+                      quantity(time, "s").text);
+    }
+    return dense;
+}

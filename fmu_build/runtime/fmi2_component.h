@@ -1,0 +1,70 @@
+/* A component of FMI 2.0: an instance, its caller's callbacks, and the rules about which call is legal when. */
+#ifndef FMI2_COMPONENT_H
+#define FMI2_COMPONENT_H
+
+#include "fmi2Functions.h"
+#include "instance.h"
+
+typedef struct {
+    Instance instance; /* first, so that a component is its instance */
+    fmi2CallbackFunctions callbacks;
+    char name[];
+} Component;
+
+typedef enum {
+    SET_DEBUG_LOGGING,
+    SETUP_EXPERIMENT,
+    ENTER_INITIALIZATION_MODE,
+    EXIT_INITIALIZATION_MODE,
+    TERMINATE,
+    RESET,
+    GET_REAL,
+    GET_INTEGER,
+    GET_BOOLEAN,
+    GET_STRING,
+    SET_REAL,
+    SET_INTEGER,
+    SET_BOOLEAN,
+    SET_STRING,
+    GET_FMU_STATE,
+    SET_FMU_STATE,
+    FREE_FMU_STATE,
+    SERIALIZED_FMU_STATE_SIZE,
+    SERIALIZE_FMU_STATE,
+    DESERIALIZE_FMU_STATE,
+    GET_DIRECTIONAL_DERIVATIVE,
+    SET_REAL_INPUT_DERIVATIVES,
+    GET_REAL_OUTPUT_DERIVATIVES,
+    DO_STEP,
+    CANCEL_STEP,
+    GET_STATUS,
+    GET_REAL_STATUS,
+    GET_INTEGER_STATUS,
+    GET_BOOLEAN_STATUS,
+    GET_STRING_STATUS
+} Function;
+
+/* Takes note of the callbacks; *component has room for the name. */
+void component_create(Component *component, const char *name, const fmi2CallbackFunctions *callbacks);
+
+/* The component, if the call is legal in its state; otherwise NULL, and the reason is logged. */
+Component *legal(fmi2Component c, Function function);
+
+/* Each logs a message that names the function and returns fmi2Error. */
+fmi2Status null_argument(Component *component, Function function);
+fmi2Status not_offered(fmi2Component c, Function function);
+
+/* For variables of types that the model does not have: an empty list is fine. */
+fmi2Status no_variables(fmi2Component c, Function function, size_t n);
+
+const char *function_name(Function function);
+
+/* Log, and return the status. */
+fmi2Status report(Component *component, fmi2Status status, const Message *message);
+
+/* The category of that name; N_LOG_CATEGORIES if there is none. */
+int category_index(fmi2String name);
+
+extern const char *const category_name[N_LOG_CATEGORIES];
+
+#endif

@@ -1,0 +1,238 @@
+#include "integrator.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "events.h"
+
+/* The error estimate, of the embedded solution of order 4, goes with the fifth power of the length. */
+static const double ERROR_ORDER = 5.0;
+static const double SAFETY = 0.9;
+static const double MAX_GROWTH = 5.0;
+static const double MAX_SHRINK = 0.2;
+/* Below this error (1 is allowed) a step cut short says nothing against a longer one: it may be all rounding. */
+static const double TELLING_ERROR = 1e-3;
+/* A step may be stretched so much to end where it should. */
+static const double STRETCH = 1.05;
+
+/* Behind an event, or a jump of an input, the length learned before it may be far too long. Start again with this part
+ * of a first step, which by itself overlooks the transients that a kink excites. (On a car/trailer at 1e-6 that takes
+ * nine rejections in ten away and adds one step in fifty.) */
+static const double CAUTION = 0.5;
+
+/* The dense output, of order 4, is less accurate than the step, but agrees with it at both ends. So if an event lies
+ * between these shares of a step, repeat the step with a length that ends a little behind the event. */
+static const double NEAR_START = 0.01;
+static const double NEAR_END = 0.9;
+static const double BEHIND_EVENT = 1.0 + 1.0 / 32.0;
+enum { MAX_REPEATS = 5 };
+
+void integrator_discontinuity(Integrator *m)
+{
+    m->error_constant = 0.0;
+    m->restart = true;
+    m->has_left_surface = false;
+}
+
+double integrator_allowed_error(int state, double value, double tolerance)
+{
+    return tolerance * (variable_info[FIRST_STATE + state].nominal + fabs(value));
+}
+
+/* Largest error relative to what is allowed, and the state that has it. */
+static double error_norm(const Rodas *r, double tolerance, int *worst)
+{
+    double norm = 0.0;
+    for (int i = 0; i < N_STATES; i++) {
+        const double allowed = integrator_allowed_error(i, fmax(fabs(r->state[i]), fabs(r->end[i])), tolerance);
+        const double error = fabs(r->error[i]) / allowed;
+        if (error > norm) {
+            norm = error;
+            *worst = i;
+        }
+    }
+    return norm;
+}
+
+/* Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section II.4, algorithm 4.14; the second
+ * derivative comes from the Jacobian instead of a difference quotient. */
+static double first_length(const Rodas *r, double tolerance)
+{
+    double d0 = 0.0;
+    double d1 = 0.0;
+    double d2 = 0.0;
+    for (int i = 0; i < N_STATES; i++) {
+        double second = r->time_derivative[i];
+        for (int j = 0; j < N_STATES; j++) {
+            second += r->jacobian[i * N_STATES + j] * r->derivative[j];
+        }
+        const double allowed = integrator_allowed_error(i, r->state[i], tolerance);
+        d0 = fmax(d0, fabs(r->state[i]) / allowed);
+        d1 = fmax(d1, fabs(r->derivative[i]) / allowed);
+        d2 = fmax(d2, fabs(second) / allowed);
+    }
+    const double h0 = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;
+    const double d = fmax(d1, d2);
+    const double h1 = d <= 1e-15 ? fmax(1e-6, 1e-3 * h0) : pow(0.01 / d, 1.0 / ERROR_ORDER);
+    return fmin(100.0 * h0, h1);
+}
+
+/* Never leave a sliver: stretch the last step, or halve the last two. */
+static double fit(double length, double remaining)
+{
+    if (remaining <= STRETCH * length) {
+        return remaining;
+    }
+    return remaining < 2.0 * length ? 0.5 * remaining : length;
+}
+
+/* The length whose error would just be allowed, by the last step's error alone. */
+static double elementary(double length, double error)
+{
+    return SAFETY * length * pow(fmax(error, 1e-12), -1.0 / ERROR_ORDER);
+}
+
+/* Choose the next length after a good step. Gustafsson's predictive control: if error / length^5 is rising, expect it
+ * to rise on. A step that was cut short may lengthen the next one, but shortens it only if its error says so. */
+static void learn(Integrator *m, double length, double error, bool rejected)
+{
+    const double constant = error / pow(length, ERROR_ORDER);
+    double best = elementary(length, error);
+    if (m->error_constant > 0.0 && constant > m->error_constant && error > TELLING_ERROR) {
+        best *= fmax(0.5, pow(m->error_constant / constant, 1.0 / ERROR_ORDER));
+    }
+    const double limit = rejected ? length : MAX_GROWTH * length;
+    const bool cut = length < 0.99 * m->length;
+    if (!cut) {
+        m->length = fmax(MAX_SHRINK * length, fmin(best, limit));
+    } else if (best > m->length) {
+        m->length = fmax(m->length, fmin(best, limit));
+    } else if (error > TELLING_ERROR) {
+        m->length = best;
+    }
+    m->error_constant = error > TELLING_ERROR ? constant : 0.0;
+}
+
+static bool explain_start(const Rodas *r, int state, Message *why)
+{
+    const VariableInfo *info = &variable_info[FIRST_STATE + state];
+    message_write(why, "the derivative of %s, or its Jacobian, is not finite at t = %s, where %s = %s", info->name,
+                  quantity(r->time, "s").text, info->name, quantity(r->state[state], info->unit).text);
+    return false;
+}
+
+static bool explain_collapse(const Rodas *r, int not_finite, int worst, Message *why)
+{
+    const bool finite = not_finite == FINITE;
+    message_write(why, "no step can be made from t = %s, however small: %s %s", quantity(r->time, "s").text,
+                  finite ? "the largest error is that of" : "not finite is the derivative of",
+                  N_STATES > 0 ? variable_info[FIRST_STATE + (finite ? worst : not_finite)].name : "nothing");
+    return false;
+}
+
+/* Shorten a trial until its error is allowed. */
+static bool accept(Integrator *m, Workspace *w, const bool holds[], double *length, double tolerance, bool *rejected,
+                   double shortest, double *error, Message *why)
+{
+    int worst = 0;
+    for (;;) {
+        const int not_finite = rodas_try(&w->rodas, *length, &w->v, holds);
+        m->counters.evaluations += RODAS_STAGES - 1;
+        *error = not_finite == FINITE ? error_norm(&w->rodas, tolerance, &worst) : (double)INFINITY;
+        if (*error <= 1.0) {
+            return true;
+        }
+        m->counters.rejected++;
+        *rejected = true;
+        const double shrunk = isfinite(*error) ? elementary(*length, *error) : 0.0;
+        *length = fmax(MAX_SHRINK * *length, shrunk);
+        m->length = *length;
+        if (*length < shortest) {
+            return explain_collapse(&w->rodas, not_finite, worst, why);
+        }
+    }
+}
+
+static void arrive_at_end(Integrator *m, const Rodas *r, const bool holds[], double target, double remaining,
+                          Point *arrival)
+{
+    m->counters.steps++;
+    arrival->time = r->length >= remaining ? target : r->time + r->length; /* t + (target - t) may not be target */
+    memcpy(arrival->state, r->end, sizeof arrival->state);
+    memcpy(arrival->holds, holds, sizeof arrival->holds);
+    arrival->event = false;
+}
+
+/* Time moves on by an event, be it by the least possible amount, unless it lies exactly at the start. */
+static bool arrive_at_event(Integrator *m, Workspace *w, const Event *event, double target, Point *arrival,
+                            Message *why)
+{
+    const Rodas *r = &w->rodas;
+    m->counters.events++;
+    integrator_discontinuity(m);
+    memcpy(arrival->holds, event->truths, sizeof arrival->holds);
+    arrival->event = true;
+    rodas_dense(r, event->fraction, arrival->state);
+    if (event->fraction == 0.0) {
+        m->left_surface = arrival->time = r->time;
+        m->has_left_surface = true;
+        return true;
+    }
+    m->counters.steps++;
+    arrival->time = fmin(target, fmax(r->time + event->fraction * r->length, nextafter(r->time, target)));
+    w->v.time = arrival->time;
+    memcpy(&w->v.at[FIRST_STATE], arrival->state, N_STATES * sizeof(double));
+    return events_settle(&w->v, arrival->holds, why);
+}
+
+static bool start(Integrator *m, Workspace *w, const Variables *v, const bool holds[], double tolerance, Message *why)
+{
+    w->v = *v;
+    m->counters.evaluations++;
+    m->counters.jacobians++;
+    const int not_finite = rodas_start(&w->rodas, &w->v, holds);
+    if (not_finite != FINITE) {
+        return explain_start(&w->rodas, not_finite, why);
+    }
+    if (m->length <= 0.0) {
+        m->length = first_length(&w->rodas, tolerance);
+    } else if (m->restart) {
+        m->length = fmin(m->length, CAUTION * first_length(&w->rodas, tolerance));
+    }
+    m->restart = false;
+    return true;
+}
+
+bool integrator_step(Integrator *m, Workspace *w, const Variables *v, const bool holds[], double target,
+                     double tolerance, Point *arrival, Message *why)
+{
+    if (!start(m, w, v, holds, tolerance, why)) {
+        return false;
+    }
+    const double remaining = target - v->time;
+    const bool leaving = !(m->has_left_surface && m->left_surface == v->time);
+    double length = fit(m->length, remaining);
+    const double shortest = 4.0 * DBL_EPSILON * fmax(fabs(v->time), length);
+    double error = 0.0;
+    bool rejected = false;
+    bool found = false;
+    Event event;
+    for (int repeat = 0;; repeat++) {
+        if (!accept(m, w, holds, &length, tolerance, &rejected, shortest, &error, why)) {
+            return false;
+        }
+        found = events_find(&w->rodas, &w->v, holds, leaving, &event);
+        if (!found || event.fraction < NEAR_START || event.fraction > NEAR_END || repeat == MAX_REPEATS) {
+            break;
+        }
+        m->counters.repeated++;
+        length *= event.fraction * BEHIND_EVENT;
+    }
+    learn(m, length, error, rejected);
+    if (found) {
+        return arrive_at_event(m, w, &event, target, arrival, why);
+    }
+    arrive_at_end(m, &w->rodas, holds, target, remaining, arrival);
+    return true;
+}

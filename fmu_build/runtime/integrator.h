@@ -1,0 +1,54 @@
+/* Step-size control around Rodas5P, and events between its steps. */
+#ifndef INTEGRATOR_H
+#define INTEGRATOR_H
+
+#include <stdint.h>
+
+#include "message.h"
+#include "model.h"
+#include "rodas.h"
+
+typedef struct {
+    int64_t steps;       /* accepted, those shortened to an event among them */
+    int64_t rejected;    /* because of the error estimate, or of a value that is not finite */
+    int64_t repeated;    /* good, but repeated with the length that ends at an event */
+    int64_t evaluations; /* of the derivatives */
+    int64_t jacobians;
+    int64_t events;
+} Counters;
+
+/* What has to be remembered from step to step. */
+typedef struct {
+    double length;         /* that the error control would choose next; 0: not known yet */
+    double error_constant; /* error / length^5 of the last step; 0: not known */
+    double left_surface;   /* last time at which a truth was decided by leaving a surface; only once at a time */
+    bool has_left_surface;
+    bool restart; /* the next step is the first one behind a discontinuity */
+    Counters counters;
+} Integrator;
+
+/* Where a step has arrived. */
+typedef struct {
+    double time;
+    double state[AT_LEAST_ONE(N_STATES)];
+    bool holds[AT_LEAST_ONE(N_RELATIONS)];
+    bool event; /* some truths have changed; time may be that of the start */
+} Point;
+
+/* Room for the work inside a step; nothing in it survives the step. */
+typedef struct {
+    Rodas rodas;
+    Variables v;
+} Workspace;
+
+/* Something has changed at once (an input, a parameter, a truth): what was learned about the error may not hold. */
+void integrator_discontinuity(Integrator *m);
+
+/* One accepted step from the point in v, at most to target, at most to the next event. False: no step can be made. */
+bool integrator_step(Integrator *m, Workspace *w, const Variables *v, const bool holds[], double target,
+                     double tolerance, Point *arrival, Message *why);
+
+/* The error of a state's value that the tolerance allows. */
+double integrator_allowed_error(int state, double value, double tolerance);
+
+#endif

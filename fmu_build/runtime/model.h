@@ -1,0 +1,84 @@
+/* The contract between a generated model and the runtime.
+ *
+ * The generator writes variables.h (sizes, the Variables union, the model's identity) and model.c (everything declared
+ * below). The runtime is written against this header alone and is compiled once for each model, so that every size is
+ * a compile-time constant.
+ *
+ * Variables.at[] holds every Real of the model; its index is the FMI value reference. The order is
+ *     time | states | derivatives of the states, in their order | inputs | parameters | calculated parameters | others
+ * and the same doubles have readable names in generated code, through the anonymous struct of the union.
+ *
+ * A relation (a condition such as `compression > eps` in an if-expression) keeps its truth value holds[i] while the
+ * integrator runs between two events, so that the right-hand side is smooth there. Its residual z[i] is positive
+ * exactly where the relation, evaluated afresh, would be true.
+ */
+#ifndef MODEL_H
+#define MODEL_H
+
+#include <stdbool.h>
+
+#include "variables.h"
+
+/* variables.h defines (example of a model with 2 states, 1 input, 2 parameters and 1 relation):
+ *
+ *   #define MODEL_NAME "Example"
+ *   #define MODEL_TOKEN "{...}"                    content hash: FMI 2 guid, FMI 3 instantiation token
+ *   enum { N_STATES = 2, N_INPUTS = 1, N_PARAMETERS = 2, N_RELATIONS = 1, N_VARIABLES = 12 };
+ *   typedef union {
+ *       struct { double time; double x; double v; double der_x; double der_v; ... };
+ *       double at[N_VARIABLES];
+ *   } Variables;
+ */
+
+/* ISO C has no arrays of length zero, and a model may have no states or no relations. */
+#define AT_LEAST_ONE(n) ((n) > 0 ? (n) : 1)
+
+enum { FIRST_STATE = 1, FIRST_DERIVATIVE = FIRST_STATE + N_STATES, FIRST_INPUT = FIRST_DERIVATIVE + N_STATES };
+enum { FIRST_PARAMETER = FIRST_INPUT + N_INPUTS };
+
+typedef enum {
+    TIME,             /* the independent variable */
+    STATE,            /* its start value may be set before initialization ends */
+    STATE_CALCULATED, /* its start value follows from parameters */
+    DERIVATIVE,
+    INPUT,
+    PARAMETER,       /* tunable: takes effect at the next step */
+    FIXED_PARAMETER, /* only start values depend on it: may be set before initialization ends */
+    CALCULATED_PARAMETER,
+    OTHER /* algebraic variables, outputs among them */
+} VariableKind;
+
+typedef struct {
+    const char *name; /* Modelica name, as in modelDescription.xml */
+    const char *unit; /* "" if the model gives none; "1" is dimensionless */
+    VariableKind kind;
+    double start, min, max, nominal; /* min, max: -INFINITY, INFINITY if the model gives none */
+} VariableInfo;
+
+extern const VariableInfo variable_info[N_VARIABLES];
+
+/* The residual of every relation as text, "compression > eps", for messages; one empty string if there are none. */
+extern const char *const relation_text[AT_LEAST_ONE(N_RELATIONS)];
+
+/* Every function reads and writes v only; each computes all intermediate variables that it needs by itself. */
+
+/* Calculated parameters, from parameters. */
+void model_parameters(Variables *v);
+
+/* Start values of the states of kind STATE_CALCULATED, from parameters (calculated ones included). */
+void model_start(Variables *v);
+
+/* Derivatives of the states, from time, states, inputs, parameters. */
+void model_derivatives(Variables *v, const bool holds[]);
+
+/* All variables. */
+void model_outputs(Variables *v, const bool holds[]);
+
+/* jacobian[i * N_STATES + j] = d derivative[i] / d state[j] and time_derivative[i] = d derivative[i] / d time, partial;
+ * exact between events. */
+void model_jacobian(Variables *v, const bool holds[], double jacobian[], double time_derivative[]);
+
+/* Residuals of the relations. */
+void model_relations(Variables *v, const bool holds[], double z[]);
+
+#endif

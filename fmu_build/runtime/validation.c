@@ -1,0 +1,129 @@
+#include "validation.h"
+
+#include <math.h>
+
+static const double LOOSEST_TOLERANCE = 1e-2;
+static const double TIGHTEST_TOLERANCE = 1e-12;
+
+/* Callers sum up their communication points in various ways: equal times may differ by this much, relatively. */
+static const double SAME_TIME = 1e-9;
+
+bool valid_reference(unsigned reference, Message *why)
+{
+    if (reference < N_VARIABLES) {
+        return true;
+    }
+    message_write(why, "there is no variable with value reference %u: the last one is %d", reference, N_VARIABLES - 1);
+    return false;
+}
+
+/* NULL if a variable may be set in the phase, otherwise why not. */
+static const char *why_not_set(VariableKind kind, Phase phase)
+{
+    switch (kind) {
+    case INPUT:
+    case PARAMETER:
+        return NULL;
+    case STATE:
+        return phase == STEPPING ? "it is a state, which can be set before and during initialization only" : NULL;
+    case FIXED_PARAMETER:
+        return phase == STEPPING ? "it is a parameter that only start values depend on" : NULL;
+    case STATE_CALCULATED:
+        return "it is a state whose start value follows from parameters";
+    case TIME:
+        return "it is the time";
+    case DERIVATIVE:
+    case CALCULATED_PARAMETER:
+    case OTHER:
+        break;
+    }
+    return "it is calculated";
+}
+
+bool valid_value(unsigned reference, double value, Phase phase, Message *why)
+{
+    if (!valid_reference(reference, why)) {
+        return false;
+    }
+    const VariableInfo *info = &variable_info[reference];
+    const char *obstacle = why_not_set(info->kind, phase);
+    if (obstacle != NULL) {
+        message_write(why, "%s cannot be set: %s", info->name, obstacle);
+        return false;
+    }
+    if (isfinite(value) && value >= info->min && value <= info->max) {
+        return true;
+    }
+    message_write(why, "%s = %s is not allowed: its range is %s to %s", info->name, quantity(value, info->unit).text,
+                  quantity(info->min, info->unit).text, quantity(info->max, info->unit).text);
+    return false;
+}
+
+bool valid_experiment(const double *tolerance, double start, const double *stop, Message *why)
+{
+    if (tolerance != NULL && !(*tolerance >= TIGHTEST_TOLERANCE && *tolerance <= LOOSEST_TOLERANCE)) {
+        message_write(why, "tolerance = %s is not allowed: its range is %g to %g", quantity(*tolerance, "").text,
+                      TIGHTEST_TOLERANCE, LOOSEST_TOLERANCE);
+        return false;
+    }
+    if (!isfinite(start)) {
+        message_write(why, "start time = %s is not allowed: it must be finite", quantity(start, "s").text);
+        return false;
+    }
+    if (stop != NULL && !(*stop >= start)) {
+        message_write(why, "stop time = %s is not allowed: the start time is %s", quantity(*stop, "s").text,
+                      quantity(start, "s").text);
+        return false;
+    }
+    return true;
+}
+
+bool valid_step(const State *s, double time, double size, Message *why)
+{
+    if (!(size > 0.0) || !isfinite(size)) {
+        message_write(why, "communication step size = %s is not allowed: it must be positive and finite",
+                      quantity(size, "s").text);
+        return false;
+    }
+    if (!(fabs(time - s->v.time) <= SAME_TIME * fmax(1.0, fmax(fabs(s->v.time), size))) || !isfinite(time + size)) {
+        message_write(why, "communication point = %s is not allowed: the instance is at t = %s",
+                      quantity(time, "s").text, quantity(s->v.time, "s").text);
+        return false;
+    }
+    /* Fixed-step callers run over their stop time by up to half a step. */
+    if (time + size > s->stop + 0.5 * size) {
+        message_write(why, "a step from %s to %s is not allowed: the stop time is %s", quantity(time, "s").text,
+                      quantity(time + size, "s").text, quantity(s->stop, "s").text);
+        return false;
+    }
+    return true;
+}
+
+bool valid_states(const Point *p, double tolerance, Message *why)
+{
+    for (int i = 0; i < N_STATES; i++) {
+        const VariableInfo *info = &variable_info[FIRST_STATE + i];
+        const double value = p->state[i];
+        const double slack = integrator_allowed_error(i, value, tolerance);
+        const bool low = value < info->min - slack;
+        if (low || value > info->max + slack) {
+            message_write(why, "%s = %s has %s of %s at t = %s", info->name, quantity(value, info->unit).text,
+                          low ? "fallen below its minimum" : "risen above its maximum",
+                          quantity(low ? info->min : info->max, info->unit).text, quantity(p->time, "s").text);
+            return false;
+        }
+    }
+    return true;
+}
+
+bool valid_variables(const Variables *v, Message *why)
+{
+    for (int i = 0; i < N_VARIABLES; i++) {
+        if (!isfinite(v->at[i])) {
+            message_write(why, "%s = %s is not finite at t = %s", variable_info[i].name,
+                          quantity(v->at[i], variable_info[i].unit).text, quantity(v->time, "s").text);
+            return false;
+        }
+    }
+    return true;
+}

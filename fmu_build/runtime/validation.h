@@ -1,0 +1,19 @@
+/* What may be set, when, and to which values. */
+#ifndef VALIDATION_H
+#define VALIDATION_H
+
+#include "instance.h"
+
+/* Each returns false with a message that names what is wrong. */
+bool valid_reference(unsigned reference, Message *why);
+bool valid_value(unsigned reference, double value, Phase phase, Message *why);
+bool valid_experiment(const double *tolerance, double start, const double *stop, Message *why);
+bool valid_step(const State *s, double time, double size, Message *why);
+
+/* Every state inside its range, but for the error that the tolerance allows. */
+bool valid_states(const Point *p, double tolerance, Message *why);
+
+/* Every variable finite. */
+bool valid_variables(const Variables *v, Message *why);
+
+#endif

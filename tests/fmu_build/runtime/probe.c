@@ -1,0 +1,70 @@
+/* A window into the runtime for the tests: linked to the model under test, exported beside the FMI functions. */
+#include <math.h>
+#include <string.h>
+
+#include "instance.h"
+
+#if defined _WIN32
+#define PROBE __declspec(dllexport)
+#else
+#define PROBE __attribute__((visibility("default")))
+#endif
+
+PROBE void probe_counters(const void *component, int64_t counters[6]);
+PROBE size_t probe_state_size(void);
+PROBE void probe_state(const void *component, void *state);
+PROBE void probe_coefficients(double *gamma, double a[56], double c[56], double node[8], double d[8], double h[24]);
+PROBE void probe_fixed_steps(double start, double end, int steps, double x[], double fraction, double dense[],
+                             double embedded[]);
+
+/* A component begins with its instance. */
+void probe_counters(const void *component, int64_t counters[6])
+{
+    const Counters *from = &((const Instance *)component)->state.integrator.counters;
+    counters[0] = from->steps;
+    counters[1] = from->rejected;
+    counters[2] = from->repeated;
+    counters[3] = from->evaluations;
+    counters[4] = from->jacobians;
+    counters[5] = from->events;
+}
+
+size_t probe_state_size(void) { return sizeof(State); }
+
+void probe_state(const void *component, void *state)
+{
+    memcpy(state, &((const Instance *)component)->state, sizeof(State));
+}
+
+void probe_coefficients(double *gamma, double a[56], double c[56], double node[8], double d[8], double h[24])
+{
+    *gamma = RODAS_GAMMA;
+    memcpy(a, RODAS_A, sizeof RODAS_A);
+    memcpy(c, RODAS_C, sizeof RODAS_C);
+    memcpy(node, RODAS_NODE, sizeof RODAS_NODE);
+    memcpy(d, RODAS_D, sizeof RODAS_D);
+    memcpy(h, RODAS_BEND, sizeof RODAS_BEND);
+}
+
+/* Equal steps from the model's start values; dense and embedded belong to the last step. */
+void probe_fixed_steps(double start, double end, int steps, double x[], double fraction, double dense[],
+                       double embedded[])
+{
+    Variables v;
+    Rodas r;
+    const bool holds[AT_LEAST_ONE(N_RELATIONS)] = {false};
+    for (int i = 0; i < N_VARIABLES; i++) {
+        v.at[i] = variable_info[i].start;
+    }
+    for (int step = 0; step < steps; step++) {
+        v.time = start + (end - start) * step / steps;
+        (void)rodas_start(&r, &v, holds);
+        (void)rodas_try(&r, (end - start) / steps, &v, holds);
+        memcpy(&v.at[FIRST_STATE], r.end, N_STATES * sizeof(double));
+    }
+    rodas_dense(&r, fraction, dense);
+    memcpy(x, r.end, N_STATES * sizeof(double));
+    for (int i = 0; i < N_STATES; i++) {
+        embedded[i] = r.end[i] - r.error[i];
+    }
+}

@@ -1,0 +1,335 @@
+"""Small hand-written models that satisfy the contract of fmu_build/runtime/model.h, as C text."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+TOKEN = "{0c9d3f3e-hand-written}"
+
+
+@dataclass(frozen=True)
+class Variable:
+    name: str
+    start: float = 0.0
+    unit: str = "1"
+    min: float = -inf
+    max: float = inf
+    nominal: float = 1.0
+    kind: str = ""
+
+
+@dataclass(frozen=True)
+class Model:
+    """C statements read and write `v->name`; `holds`, `z`, `jacobian` and `time_derivative` as in model.h.
+
+    A jacobian is given as the entries that are not zero: {(row, column): expression}; column -1 is the time.
+    """
+
+    name: str
+    states: tuple[Variable, ...]
+    derivatives: str
+    jacobian: dict[tuple[int, int], str]
+    inputs: tuple[Variable, ...] = ()
+    parameters: tuple[Variable, ...] = ()
+    calculated: tuple[Variable, ...] = ()
+    others: tuple[Variable, ...] = ()
+    parameter_equations: str = ""
+    start_equations: str = ""
+    outputs: str = ""
+    relations: tuple[tuple[str, str], ...] = ()  # (text, residual)
+    tolerance: float = 1e-6
+
+    def variables(self) -> list[Variable]:
+        def kind(variables: tuple[Variable, ...], default: str) -> list[Variable]:
+            return [Variable(v.name, v.start, v.unit, v.min, v.max, v.nominal, v.kind or default) for v in variables]
+
+        return [
+            Variable("time", unit="s", kind="TIME"),
+            *kind(self.states, "STATE"),
+            *[Variable(f"der_{v.name}", kind="DERIVATIVE") for v in self.states],
+            *kind(self.inputs, "INPUT"),
+            *kind(self.parameters, "PARAMETER"),
+            *kind(self.calculated, "CALCULATED_PARAMETER"),
+            *kind(self.others, "OTHER"),
+        ]
+
+    def references(self) -> dict[str, int]:
+        return {v.name: i for i, v in enumerate(self.variables())}
+
+    def header(self) -> str:
+        names = " ".join(f"double {v.name};" for v in self.variables())
+        return f"""#ifndef VARIABLES_H
+#define VARIABLES_H
+#define MODEL_NAME "{self.name}"
+#define MODEL_TOKEN "{TOKEN}"
+#define DEFAULT_TOLERANCE {self.tolerance!r}
+enum {{
+    N_STATES = {len(self.states)},
+    N_INPUTS = {len(self.inputs)},
+    N_PARAMETERS = {len(self.parameters)},
+    N_RELATIONS = {len(self.relations)},
+    N_VARIABLES = {len(self.variables())}
+}};
+typedef union {{
+    struct {{ {names} }};
+    double at[N_VARIABLES];
+}} Variables;
+#endif
+"""
+
+    def source(self) -> str:
+        n = len(self.states)
+        rows = ",\n".join(
+            f'    {{"{v.name}", "{v.unit}", {v.kind}, {c(v.start)}, {c(v.min)}, {c(v.max)}, {c(v.nominal)}}}'
+            for v in self.variables()
+        )
+        texts = ", ".join(f'"{text}"' for text, _ in self.relations) or '""'
+        entries = "\n".join(
+            f"    time_derivative[{i}] = {e};" if j < 0 else f"    jacobian[{i * n + j}] = {e};"
+            for (i, j), e in self.jacobian.items()
+        )
+        residuals = "\n".join(f"    z[{i}] = {e};" for i, (_, e) in enumerate(self.relations))
+        return f"""#include <math.h>
+#include "model.h"
+const VariableInfo variable_info[N_VARIABLES] = {{
+{rows}
+}};
+const char *const relation_text[AT_LEAST_ONE(N_RELATIONS)] = {{{texts}}};
+void model_parameters(Variables *v) {{
+    (void)v;
+    {self.parameter_equations}
+}}
+void model_start(Variables *v) {{
+    (void)v;
+    {self.start_equations}
+}}
+void model_derivatives(Variables *v, const bool holds[]) {{
+    (void)v;
+    (void)holds;
+    {self.derivatives}
+}}
+void model_outputs(Variables *v, const bool holds[]) {{
+    model_derivatives(v, holds);
+    {self.outputs}
+}}
+void model_jacobian(Variables *v, const bool holds[], double jacobian[], double time_derivative[]) {{
+    (void)v;
+    (void)holds;
+    for (int i = 0; i < N_STATES * N_STATES; i++) {{
+        jacobian[i] = 0.0;
+    }}
+    for (int i = 0; i < N_STATES; i++) {{
+        time_derivative[i] = 0.0;
+    }}
+{entries}
+}}
+void model_relations(Variables *v, const bool holds[], double z[]) {{
+    (void)v;
+    (void)holds;
+    (void)z;
+{residuals}
+}}
+"""
+
+
+def c(value: float) -> str:
+    return "(double)INFINITY" if value == inf else "-(double)INFINITY" if value == -inf else repr(float(value))
+
+
+def _car_trailer() -> Model:
+    """Sharp (1982), equations 1 to 8 with the drawbar of section 6; figure 8 by default."""
+    k = 5480.0
+    parameters = (
+        Variable("M_c", 1000.0, "kg", 0.001),
+        Variable("M_t", 500.0, "kg", 0.001),
+        Variable("I_c", 5.0, "kg.m2", 0.001),
+        Variable("I_t", 2.5, "kg.m2", 0.001),
+        Variable("R_c", 0.35, "m", 0.001),
+        Variable("R_t", 0.35, "m", 0.001),
+        Variable("C_kc", 400000.0, "N", 0.0),
+        Variable("C_kt", 200000.0, "N", 0.0),
+        Variable("k", k, "N/m", 0.0),
+        Variable("k_t", 100 * k, "N/m", 0.0),
+        Variable("C", 500.0, "N.s/m", 0.0),
+        Variable("r", 2.975 * k, "N.m/m", 0.0),
+        Variable("eps", 0.0, "m", 0.0),
+        Variable("V_0", 40.0, "m/s", 0.1),
+        Variable("compression_start", 0.0, "m"),
+        Variable("x_start", 0.0, "m"),
+    )
+    derivatives = """
+    const double deep = v->x_t - v->x_c - v->eps;
+    const double push = holds[0] ? v->k * deep : holds[1] ? v->k_t * (v->x_t - v->x_c) : 0.0;
+    const double hitch = v->C * (v->v_c - v->v_t) - push;
+    const double brake = holds[0] ? v->r * deep : 0.0;
+    const double tyre_c = v->C_kc * (v->v_c - v->R_c * v->w_c) / v->v_c;
+    const double tyre_t = v->C_kt * (v->v_t - v->R_t * v->w_t) / v->v_t;
+    v->der_x_c = v->v_c;
+    v->der_x_t = v->v_t;
+    v->der_v_c = (-hitch - tyre_c) / v->M_c;
+    v->der_v_t = (hitch - tyre_t) / v->M_t;
+    v->der_w_c = (tyre_c * v->R_c - v->brake_torque) / v->I_c;
+    v->der_w_t = (tyre_t * v->R_t - brake) / v->I_t;
+    """
+    slope = "(holds[0] ? v->k : holds[1] ? v->k_t : 0.0)"  # of the push over the compression
+    grip_c = "(v->C_kc * v->R_c / v->v_c)"
+    grip_t = "(v->C_kt * v->R_t / v->v_t)"
+    jacobian = {
+        (0, 2): "1.0",
+        (1, 3): "1.0",
+        (2, 0): f"-{slope} / v->M_c",
+        (2, 1): f"{slope} / v->M_c",
+        (2, 2): f"(-v->C - {grip_c} * v->w_c / v->v_c) / v->M_c",
+        (2, 3): "v->C / v->M_c",
+        (2, 4): f"{grip_c} / v->M_c",
+        (3, 0): f"{slope} / v->M_t",
+        (3, 1): f"-{slope} / v->M_t",
+        (3, 2): "v->C / v->M_t",
+        (3, 3): f"(-v->C - {grip_t} * v->w_t / v->v_t) / v->M_t",
+        (3, 5): f"{grip_t} / v->M_t",
+        (4, 2): f"v->R_c * {grip_c} * v->w_c / v->v_c / v->I_c",
+        (4, 4): f"-v->R_c * {grip_c} / v->I_c",
+        (5, 0): "(holds[0] ? v->r : 0.0) / v->I_t",
+        (5, 1): "-(holds[0] ? v->r : 0.0) / v->I_t",
+        (5, 3): f"v->R_t * {grip_t} * v->w_t / v->v_t / v->I_t",
+        (5, 5): f"-v->R_t * {grip_t} / v->I_t",
+    }
+    return Model(
+        "CarTrailer",
+        (
+            Variable("x_c", 0.0, "m", kind="STATE_CALCULATED"),
+            Variable("x_t", 0.0, "m", kind="STATE_CALCULATED"),
+            Variable("v_c", 40.0, "m/s", 0.1, kind="STATE_CALCULATED"),
+            Variable("v_t", 40.0, "m/s", 0.1, kind="STATE_CALCULATED"),
+            Variable("w_c", 114.0, "rad/s", kind="STATE_CALCULATED", nominal=3.0),
+            Variable("w_t", 114.0, "rad/s", kind="STATE_CALCULATED", nominal=3.0),
+        ),
+        derivatives,
+        jacobian,
+        inputs=(Variable("brake_torque", 0.0, "N.m", 0.0),),
+        parameters=parameters,
+        others=(Variable("compression", unit="m"),),
+        start_equations="""
+    v->x_c = v->x_start;
+    v->x_t = v->x_start + v->compression_start;
+    v->v_c = v->V_0;
+    v->v_t = v->V_0;
+    v->w_c = v->V_0 / v->R_c;
+    v->w_t = v->V_0 / v->R_t;""",
+        outputs="v->compression = v->x_t - v->x_c;",
+        relations=(("compression > eps", "v->x_t - v->x_c - v->eps"), ("compression < 0", "-(v->x_t - v->x_c)")),
+    )
+
+
+CAR_TRAILER = _car_trailer()
+
+
+# Nonlinear, not autonomous: x = sin(t) + 1/2, y = exp(-t) in closed form.
+SMOOTH = Model(
+    "Smooth",
+    (Variable("x", 0.5), Variable("y", 1.0)),
+    """
+    const double s = sin(v->time) + 0.5;
+    v->der_x = cos(v->time) + v->y * (s * s - v->x * v->x);
+    v->der_y = -v->y * v->y * exp(v->time) + (v->x - s) * v->y;""",
+    {
+        (0, 0): "-2.0 * v->x * v->y",
+        (0, 1): "(sin(v->time) + 0.5) * (sin(v->time) + 0.5) - v->x * v->x",
+        (1, 0): "v->y",
+        (1, 1): "-2.0 * v->y * exp(v->time) + v->x - sin(v->time) - 0.5",
+        (0, -1): "-sin(v->time) + 2.0 * v->y * (sin(v->time) + 0.5) * cos(v->time)",
+        (1, -1): "-v->y * v->y * exp(v->time) - cos(v->time) * v->y",
+    },
+    others=(Variable("energy", unit="J"),),
+    outputs="v->energy = v->x * v->x;",
+)
+
+VAN_DER_POL = Model(
+    "VanDerPol",
+    (Variable("x", 2.0), Variable("y", 0.0)),
+    """
+    v->der_x = v->y;
+    v->der_y = ((1.0 - v->x * v->x) * v->y - v->x) / v->stiffness;""",
+    {
+        (0, 1): "1.0",
+        (1, 0): "(-2.0 * v->x * v->y - 1.0) / v->stiffness",
+        (1, 1): "(1.0 - v->x * v->x) / v->stiffness",
+    },
+    parameters=(Variable("stiffness", 1e-5, min=1e-9),),
+)
+
+# Prothero and Robinson: x = cos(t) for every lambda.
+PROTHERO_ROBINSON = Model(
+    "ProtheroRobinson",
+    (Variable("x", 1.0),),
+    "v->der_x = -v->rate * (v->x - cos(v->time)) - sin(v->time);",
+    {(0, 0): "-v->rate", (0, -1): "-v->rate * sin(v->time) - cos(v->time)"},
+    parameters=(Variable("rate", 1e6),),
+)
+
+# A mass between two springs with a gap: m = 1, stiffness p above the gap, q below zero.
+OSCILLATOR = Model(
+    "Oscillator",
+    (Variable("x", 0.0, "m"), Variable("v", 1.0, "m/s")),
+    """
+    v->der_x = v->v;
+    v->der_v = holds[0] ? -v->p * (v->x - v->gap) : holds[1] ? -v->q * v->x : 0.0;""",
+    {(0, 1): "1.0", (1, 0): "holds[0] ? -v->p : holds[1] ? -v->q : 0.0"},
+    parameters=(Variable("p", 4.0), Variable("q", 900.0), Variable("gap", 0.0, "m", 0.0)),
+    relations=(("x > gap", "v->x - v->gap"), ("x < 0", "-v->x")),
+)
+
+# x = t exactly; the relation is true for a moment only.
+PULSE = Model(
+    "Pulse",
+    (Variable("x", 0.0, "m"), Variable("y", 0.0)),
+    "v->der_x = 1.0; v->der_y = holds[0] ? 1.0 : 0.0;",
+    {},
+    parameters=(Variable("centre", 0.5, "m"), Variable("half", 0.05, "m")),
+    relations=(("abs(x - centre) < half", "v->half * v->half - (v->x - v->centre) * (v->x - v->centre)"),),
+)
+
+# Slides along x = 0: each side pushes to the other.
+SLIDING = Model(
+    "Sliding",
+    (Variable("x", 1.0, "m"),),
+    "v->der_x = holds[0] ? -1.0 : 1.0;",
+    {},
+    relations=(("x > 0", "v->x"),),
+)
+
+# x = 1 / (1 - t)
+SINGULAR = Model("Singular", (Variable("x", 1.0),), "v->der_x = v->x * v->x;", {(0, 0): "2.0 * v->x"})
+
+# x falls below zero at t = 1; its root, an output, is no number there.
+ROOT_OF_NEGATIVE = Model(
+    "RootOfNegative",
+    (Variable("x", 1.0, "m"),),
+    "v->der_x = -1.0;",
+    {},
+    others=(Variable("root"),),
+    outputs="v->root = sqrt(v->x);",
+)
+
+# The derivative itself ends at t = 1.
+DERIVATIVE_ENDS = Model(
+    "DerivativeEnds",
+    (Variable("x", 0.0, "m"), Variable("y", 0.0)),
+    "v->der_x = 1.0; v->der_y = sqrt(1.0 - v->x);",
+    {(1, 0): "-0.5 / sqrt(1.0 - v->x)"},
+)
+
+# A truth that contradicts itself.
+PARADOX = Model("Paradox", (Variable("x"),), "v->der_x = 0.0;", {}, relations=(("lie", "holds[0] ? -1.0 : 1.0"),))
+
+NO_STATES = Model(
+    "NoStates",
+    (),
+    "",
+    {},
+    inputs=(Variable("u", 1.0, "N", -10.0, 10.0),),
+    others=(Variable("y", unit="N"),),
+    outputs="v->y = holds[0] ? 2.0 * v->u : v->u;",
+    relations=(("time > 0.255", "v->time - 0.255"),),
+)

@@ -1,0 +1,176 @@
+"""Compile the runtime with a hand-written model and drive it through its FMI 2.0 functions."""
+
+from __future__ import annotations
+
+import ctypes as ct
+import os
+import shutil
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+import fmpy
+import numpy as np
+from runtime_models import TOKEN, Model
+
+ROOT = Path(__file__).parents[3]
+RUNTIME = ROOT / "fmu_build" / "runtime"
+FMI_HEADERS = Path(fmpy.__file__).parent / "c-code"
+FLAGS = [
+    *"-std=c11 -O2 -fPIC -shared -fvisibility=hidden -ffp-contract=off".split(),
+    *"-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror".split(),
+]
+OK, WARNING, DISCARD, ERROR = range(4)
+
+LOGGER = ct.CFUNCTYPE(None, ct.c_void_p, ct.c_char_p, ct.c_int, ct.c_char_p, ct.c_char_p, ct.c_char_p)
+ALLOCATE = ct.CFUNCTYPE(ct.c_void_p, ct.c_size_t, ct.c_size_t)
+FREE = ct.CFUNCTYPE(None, ct.c_void_p)
+
+
+class Callbacks(ct.Structure):
+    _fields_ = [
+        ("logger", LOGGER),
+        ("allocate", ALLOCATE),
+        ("free", FREE),
+        ("step_finished", ct.c_void_p),
+        ("environment", ct.c_void_p),
+    ]
+
+
+@dataclass(frozen=True)
+class Library:
+    """A compiled model."""
+
+    model: Model
+    path: Path
+    dll: ct.CDLL
+
+
+@dataclass(frozen=True)
+class Counters:
+    steps: int
+    rejected: int
+    repeated: int
+    evaluations: int
+    jacobians: int
+    events: int
+
+
+class Unit:
+    """An instance. Its methods return the FMI status; `log` collects (category, message)."""
+
+    def __init__(self, library: Library, *, logging: bool = False, name: bytes = b"unit", token: str = TOKEN) -> None:
+        self.library = library
+        self.dll = library.dll
+        self.references = library.model.references()
+        self.log: list[tuple[str, str]] = []
+        self.time = 0.0
+
+        def log(_env: object, _name: bytes, _status: int, category: bytes, form: bytes, text: bytes) -> None:
+            assert form == b"%s"
+            self.log.append((category.decode(), text.decode()))
+
+        self.callbacks = Callbacks(LOGGER(log))
+        self.component = self.dll.fmi2Instantiate(
+            name, 1, token.encode(), None, ct.byref(self.callbacks), 0, int(logging)
+        )
+
+    def call(self, function: str, *arguments: object) -> int:
+        return int(getattr(self.dll, function)(ct.c_void_p(self.component), *arguments))
+
+    def setup(self, tolerance: float | None = None, start: float = 0.0, stop: float | None = None) -> int:
+        self.time = start
+        return self.call(
+            "fmi2SetupExperiment",
+            int(tolerance is not None),
+            ct.c_double(tolerance or 0.0),
+            ct.c_double(start),
+            int(stop is not None),
+            ct.c_double(stop or 0.0),
+        )
+
+    def initialize(self) -> int:
+        return max(self.call("fmi2EnterInitializationMode"), self.call("fmi2ExitInitializationMode"))
+
+    def set(self, **values: float) -> int:
+        n = len(values)
+        return self.call(
+            "fmi2SetReal",
+            (ct.c_uint * max(n, 1))(*[self.references[name] for name in values]),
+            ct.c_size_t(n),
+            (ct.c_double * max(n, 1))(*values.values()),
+        )
+
+    def get_status(self, *names: str) -> tuple[int, np.ndarray]:
+        n = len(names)
+        values = (ct.c_double * max(n, 1))()
+        status = self.call(
+            "fmi2GetReal", (ct.c_uint * max(n, 1))(*[self.references[name] for name in names]), ct.c_size_t(n), values
+        )
+        return status, np.array(values[:n])
+
+    def get(self, *names: str) -> np.ndarray:
+        status, values = self.get_status(*names)
+        assert status == OK, self.log
+        return values
+
+    def step(self, size: float, time: float | None = None) -> int:
+        start = self.time if time is None else time
+        status = self.call("fmi2DoStep", ct.c_double(start), ct.c_double(size), 1)
+        if status == OK:
+            self.time = start + size
+        return status
+
+    def run(self, end: float, size: float, names: list[str]) -> np.ndarray:
+        """Rows of values at the communication points; from the current time to end in equal steps."""
+        n = round((end - self.time) / size)
+        start = self.time
+        rows = [self.get(*names)]
+        for i in range(n):
+            begin = start + i * size
+            assert self.step(start + (i + 1) * size - begin, begin) == OK, self.log
+            rows.append(self.get(*names))
+        return np.array(rows)
+
+    def counters(self) -> Counters:
+        numbers = (ct.c_int64 * 6)()
+        self.dll.probe_counters(ct.c_void_p(self.component), numbers)
+        return Counters(*numbers)
+
+    def state(self) -> bytes:
+        buffer = ct.create_string_buffer(self.dll.probe_state_size())
+        self.dll.probe_state(ct.c_void_p(self.component), buffer)
+        return buffer.raw
+
+    def messages(self, category: str = "logStatusError") -> list[str]:
+        return [text for c, text in self.log if c == category]
+
+    def event_times(self) -> list[tuple[str, float]]:
+        return [
+            (text.split(" at t = ")[0], float(text.split(" at t = ")[1].split()[0]))
+            for text in self.messages("logEvents")
+        ]
+
+    def free(self) -> None:
+        if self.component:
+            self.dll.fmi2FreeInstance(self.component)
+            self.component = None
+
+
+def compile_model(model: Model, folder: Path) -> Library:
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "variables.h").write_text(model.header(), encoding="utf-8")
+    (folder / "model.c").write_text(model.source(), encoding="utf-8")
+    path = folder / f"{model.name}.so"
+    sources = [*sorted(RUNTIME.glob("*.c")), Path(__file__).parent / "probe.c", folder / "model.c"]
+    compiler = os.environ.get("CC") or shutil.which("cc") or shutil.which("gcc")
+    assert compiler is not None, "these tests need a C compiler"
+    command = [compiler, *FLAGS, f"-I{folder}", f"-I{RUNTIME}", f"-I{FMI_HEADERS}", *map(str, sources)]
+    subprocess.run([*command, "-o", str(path), "-lm"], check=True)
+    dll = ct.CDLL(str(path))
+    dll.fmi2Instantiate.restype = ct.c_void_p
+    dll.fmi2Instantiate.argtypes = [ct.c_char_p, ct.c_int, ct.c_char_p, ct.c_char_p, ct.c_void_p, ct.c_int, ct.c_int]
+    dll.probe_state_size.restype = ct.c_size_t
+    dll.fmi2FreeInstance.argtypes = [ct.c_void_p]
+    dll.fmi2FreeInstance.restype = None
+    return Library(model, path, dll)
