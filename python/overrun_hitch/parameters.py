@@ -1,0 +1,166 @@
+"""What a run is made of: Sharp's parameters, his nine cases and the step brakes of his figures.
+
+Every quantity is in SI units and carries its unit, its meaning and its lowest allowed value, so that tables, messages
+and files written elsewhere can take them from here. The lowest values are those of the FMU.
+
+R. S. Sharp, "Longitudinal Oscillations of Vehicle/Trailer Combinations Induced by Overrun Braking", Vehicle System
+Dynamics 11:1 (1982) 43-61, doi 10.1080/00423118208968687. Called "the paper" throughout the package.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+
+class HitchError(ValueError):
+    """Something the user can mend. The message is one line that names the thing and says what is allowed."""
+
+
+class Quantities(BaseModel):
+    """A frozen record of finite numbers, each declared by `quantity`. Wrong values raise HitchError."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    def __init__(self, **values: Any) -> None:
+        try:
+            super().__init__(**values)
+        except ValidationError as error:
+            raise HitchError(self._explain(error.errors()[0])) from None
+
+    @classmethod
+    def unit(cls, name: str) -> str:
+        """Unit of the quantity `name`, as the FMU writes it ("N.s/m")."""
+        extra = cls.model_fields[name].json_schema_extra
+        return str(extra["unit"]) if isinstance(extra, dict) else ""
+
+    @classmethod
+    def description(cls, name: str) -> str:
+        """Meaning of the quantity `name`, a noun phrase."""
+        return cls.model_fields[name].description or name
+
+    @classmethod
+    def allowed(cls, name: str) -> str:
+        """The allowed range of `name` in words: "a finite number, at least 1 kg"."""
+        words = {"ge": "at least", "gt": "greater than", "le": "at most", "lt": "less than"}
+        limits = [
+            f"{words[kind]} {getattr(limit, kind):g} {cls.unit(name)}".strip()
+            for limit in cls.model_fields[name].metadata
+            for kind in words
+            if hasattr(limit, kind)
+        ]
+        return ", ".join(["a finite number", *limits])
+
+    @classmethod
+    def _explain(cls, error: Any) -> str:
+        """One line for the first thing that pydantic found wrong."""
+        name = str(error["loc"][0])
+        if error["type"] == "extra_forbidden":
+            return unknown("parameter", name, cls.model_fields)
+        if error["type"] == "missing":
+            return f"{name} is missing: {cls.description(name)} must be {cls.allowed(name)}"
+        try:
+            shown = f"{float(error['input']):g} {cls.unit(name)}".strip()
+        except (TypeError, ValueError):
+            shown = f"{error['input']!r:.40}"
+        return f"{name} = {shown} is not allowed: {cls.description(name)} must be {cls.allowed(name)}"
+
+
+def quantity(default: Any, unit: str, description: str, **limits: float) -> Any:
+    """Declare a quantity: default (... if there is none), unit, meaning, limits as pydantic spells them (ge, le)."""
+    return Field(default, description=description, json_schema_extra={"unit": unit}, **limits)  # type: ignore[call-overload]
+
+
+def unknown(kind: str, name: str, names: Iterable[str]) -> str:
+    """One line saying that there is no such `kind`, the closest of the allowed names first."""
+    allowed = list(names)
+    close = difflib.get_close_matches(name, allowed, n=3, cutoff=0.5)
+    listed = ", ".join(close + [other for other in allowed if other not in close])
+    return f"there is no {kind} {name!r:.40}; allowed: {listed}"
+
+
+class Parameters(Quantities):
+    """The car, the trailer, the drawbar and the start, in the paper's symbols. The defaults are figure 8."""
+
+    M_c: float = quantity(1000.0, "kg", "mass of the car", ge=1.0)
+    M_t: float = quantity(500.0, "kg", "mass of the trailer", ge=1.0)
+    I_c: float = quantity(5.0, "kg.m2", "lumped wheel inertia of the car", ge=0.001)
+    I_t: float = quantity(2.5, "kg.m2", "lumped wheel inertia of the trailer", ge=0.001)
+    R_c: float = quantity(0.35, "m", "wheel radius of the car", ge=0.01)
+    R_t: float = quantity(0.35, "m", "wheel radius of the trailer", ge=0.01)
+    C_kc: float = quantity(400e3, "N", "braking force per unit slip of the car", ge=1.0)
+    C_kt: float = quantity(200e3, "N", "braking force per unit slip of the trailer", ge=1.0)
+    k: float = quantity(5480.0, "N/m", "drawbar stiffness in compression", ge=0.0)
+    k_t: float = quantity(548e3, "N/m", "drawbar stiffness in tension", ge=0.0)
+    C: float = quantity(500.0, "N.s/m", "drawbar damper coefficient", ge=0.0)
+    r: float = quantity(2.975 * 5480.0, "N.m/m", "trailer brake torque per unit of drawbar compression", ge=0.0)
+    eps: float = quantity(0.0, "m", "drawbar clearance", ge=0.0)
+    V_0: float = quantity(40.0, "m/s", "speed at the start", ge=0.1)
+    compression_start: float = quantity(0.0, "m", "drawbar compression at the start")
+
+    def changed(self, changes: Mapping[str, Any]) -> Parameters:
+        """A copy with `changes` (name: value); HitchError for an unknown name or a value out of range."""
+        return Parameters(**{**self.model_dump(), **changes})
+
+
+class Scenario(Quantities):
+    """A step brake: from steady running at V_0, brake torque on the car's wheels from t = 0 on."""
+
+    name: str
+    parameters: Parameters
+    brake_torque: float = quantity(1000.0, "N.m", "brake torque on the car's lumped wheels", ge=0.0)
+    duration: float = quantity(6.0, "s", "length of the run", gt=0.0)
+
+    def changed(self, **changes: Any) -> Scenario:
+        """A copy with `changes`; HitchError for a value out of range."""
+        return Scenario(**{"name": self.name, "parameters": self.parameters, "brake_torque": self.brake_torque,
+                           "duration": self.duration, **changes})  # fmt: skip
+
+
+# Section 7 of the paper fixes car and trailer; k, r, C are its free choices, here those of case ii in figure 8.
+DATUM = Parameters()
+
+
+def _case(k: float, r_over_k: float, **changes: float) -> Parameters:
+    return DATUM.changed({"k": k, "r": r_over_k * k, **changes})
+
+
+# Sections 8.1 and 8.2 of the paper: k (N/m), r/k (m) and the one datum that is reduced to 80 %.
+CASES: Mapping[str, Parameters] = {
+    "i": _case(11550.0, 1.225),
+    "ii": _case(5480.0, 2.975),
+    "iii": _case(2125.0, 8.23),
+    "iv": _case(5480.0, 2.975, C_kt=160e3),
+    "v": _case(5358.0, 3.0, I_c=4.0),
+    "vi": _case(5317.0, 2.95, I_t=2.0),
+    "vii": _case(4224.0, 3.77, M_c=800.0),
+    "viii": _case(5158.0, 2.335, M_t=400.0),
+    "ix": _case(5081.0, 2.44, R_t=0.28),
+}
+
+
+def _figure(number: str, C: float, k_t: float = 548e3, eps: float = 0.0) -> Scenario:
+    parameters = CASES["ii"].changed({"C": C, "k_t": k_t, "eps": eps})
+    return Scenario(name=f"figure {number}", parameters=parameters)
+
+
+# Section 8.3 of the paper: case ii at 40 m/s, 1000 N.m for 6 s.
+FIGURES: Mapping[str, Scenario] = {
+    "6a": _figure("6a", C=20.0),
+    "6b": _figure("6b", C=20.0, k_t=5480.0),
+    "7": _figure("7", C=100.0),
+    "8": _figure("8", C=500.0),
+    "9": _figure("9", C=100.0, eps=0.1),
+    "10": _figure("10", C=500.0, eps=0.1),
+    "11": _figure("11", C=2500.0, eps=0.1),
+}
+
+
+def named(kind: str, name: str, table: Mapping[str, Any]) -> Any:
+    """table[name], or a HitchError that lists the allowed names ("figure", "case")."""
+    if name not in table:
+        raise HitchError(unknown(kind, name, table))
+    return table[name]

@@ -1,0 +1,136 @@
+"""A run as a labelled table: variables over time with units, and the CSV file made of it."""
+
+from __future__ import annotations
+
+import csv
+import os
+import re
+import tempfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from overrun_hitch.parameters import HitchError, Parameters, Scenario
+
+Floats = NDArray[np.float64]
+
+# Outputs of the FMU in the order of the CSV's columns: unit, long name with its sign convention.
+VARIABLES: Mapping[str, tuple[str, str]] = {
+    "v_car": ("m/s", "speed of the car"),
+    "v_trailer": ("m/s", "speed of the trailer"),
+    "a_car": ("m/s2", "acceleration of the car, positive forward"),
+    "a_trailer": ("m/s2", "acceleration of the trailer, positive forward"),
+    "compression": ("m", "drawbar compression, trailer's less car's displacement"),
+    "F_hitch": ("N", "hitch force on the car, positive forward: a pushing trailer gives a positive value"),
+    "slip_car": ("1", "longitudinal slip of the car's wheels, positive braking"),
+    "slip_trailer": ("1", "longitudinal slip of the trailer's wheels, positive braking"),
+    "trailer_brake_torque": ("N.m", "brake torque on the trailer's wheels"),
+}
+
+
+def dataset(time: Floats, columns: Mapping[str, Floats], attributes: Mapping[str, object]) -> xr.Dataset:
+    """A result: dimension `time` (n,) in s, the VARIABLES (n,) of `columns`, each with units and long_name.
+
+    `attributes` of a run are the parameters by name in SI units, scenario, brake_torque (N.m), duration (s), and what
+    made it: fmu, relative_tolerance, communication_step (s), versions.
+    """
+    variables = {
+        name: ("time", np.asarray(columns[name], dtype=np.float64), {"units": unit, "long_name": long_name})
+        for name, (unit, long_name) in VARIABLES.items()
+    }
+    axis = ("time", np.asarray(time, dtype=np.float64), {"units": "s", "long_name": "time"})
+    return xr.Dataset(variables, coords={"time": axis}, attrs=dict(attributes))
+
+
+def scenario_attributes(scenario: Scenario) -> dict[str, object]:
+    """The attributes that say what was run, flat, so that any file format can hold them."""
+    return {
+        "scenario": scenario.name,
+        "brake_torque": scenario.brake_torque,
+        "duration": scenario.duration,
+        **scenario.parameters.model_dump(),
+    }
+
+
+def scenario_of(result: xr.Dataset) -> Scenario:
+    """The scenario that made a result, from its attributes; HitchError where they are missing."""
+    attributes = result.attrs
+    missing = [
+        name for name in ("scenario", "brake_torque", "duration", *Parameters.model_fields) if name not in attributes
+    ]
+    if missing:
+        raise HitchError(f"the result does not say what was run: attribute {missing[0]} is missing")
+    return Scenario(
+        name=str(attributes["scenario"]),
+        parameters=Parameters(**{name: attributes[name] for name in Parameters.model_fields}),
+        brake_torque=attributes["brake_torque"],
+        duration=attributes["duration"],
+    )
+
+
+def values(result: xr.Dataset, name: str) -> Floats:
+    """The samples (n,) of a variable or of "time"."""
+    return np.asarray(result[name].values, dtype=np.float64)
+
+
+def write_atomically(path: Path, write: Callable[[Path], None]) -> None:
+    """Let `write` fill a temporary file and give it its name only when it is whole. HitchError if that cannot be."""
+    temporary: Path | None = None
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
+        os.close(handle)
+        temporary = Path(name)
+        write(temporary)
+        temporary.chmod(0o666 & ~_umask())  # mkstemp makes files that only their owner may read
+        temporary.replace(path)
+    except OSError as error:
+        raise HitchError(f"cannot write {path}: {error.strerror or error}") from None
+    finally:
+        if temporary is not None:
+            temporary.unlink(missing_ok=True)
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def write_csv(result: xr.Dataset, path: Path) -> None:
+    """Write time and variables with units in the header ("time [s],v_car [m/s],..."), every digit kept."""
+    names = ["time", *(str(name) for name in result.data_vars)]
+    rows = np.column_stack([values(result, name) for name in names])
+
+    def write(temporary: Path) -> None:
+        with temporary.open("w", encoding="utf-8", newline="") as file:
+            table = csv.writer(file, lineterminator="\n")
+            table.writerow([f"{name} [{result[name].attrs['units']}]" for name in names])
+            table.writerows([repr(float(value)) for value in row] for row in rows)
+
+    write_atomically(path, write)
+
+
+def read_csv(path: Path) -> xr.Dataset:
+    """Read what `write_csv` wrote; attributes of the run are not in the file. HitchError for anything else."""
+    try:
+        with path.open(encoding="utf-8", newline="") as file:
+            header, *rows = list(csv.reader(file))
+        heads = [re.fullmatch(r"(\w+) \[([^\]]*)\]", head) for head in header]
+        table = np.array(rows, dtype=np.float64).reshape(len(rows), len(header))
+    except OSError as error:
+        raise HitchError(f"cannot read {path}: {error.strerror or error}") from None
+    except (ValueError, UnicodeDecodeError, csv.Error):
+        raise HitchError(f"{path} is not a table of numbers under one line of names with units") from None
+    units = {head[1]: head[2] for head in heads if head}
+    wanted = {"time": "s", **{name: unit for name, (unit, _) in VARIABLES.items()}}
+    if units != wanted:
+        wrong = next((name for name in wanted if units.get(name) != wanted[name]), "another column")
+        raise HitchError(
+            f"{path} has no usable column {wrong!r}; needed: {', '.join(f'{n} [{u}]' for n, u in wanted.items())}"
+        )
+    columns = dict(zip(units, table.T, strict=True))
+    return dataset(columns.pop("time"), columns, {})

@@ -1,0 +1,30 @@
+"""Runs made by the oracle instead of the FMU, in the package's own form."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+import xarray as xr
+
+from overrun_hitch.parameters import Scenario
+from overrun_hitch.results import VARIABLES, dataset, scenario_attributes
+from tests.oracles import radau
+
+OracleRun = Callable[..., xr.Dataset]
+
+
+@pytest.fixture(scope="session")
+def oracle_run() -> OracleRun:
+    """oracle_run(scenario, milliseconds=10): the result that a faultless FMU would give.
+
+    By DOP853, which is five times as fast as Radau here and as good (test_oracle.py).
+    """
+
+    def run(scenario: Scenario, milliseconds: int = 10) -> xr.Dataset:
+        solved = radau.trajectory(scenario.parameters, scenario.brake_torque, scenario.duration, "DOP853")
+        columns = {name: getattr(solved, name)[::milliseconds] for name in VARIABLES}
+        attributes = {**scenario_attributes(scenario), "ended": "duration"}
+        return dataset(solved.time[::milliseconds], columns, attributes)
+
+    return run

@@ -1,0 +1,64 @@
+"""Results keep units and digits, on disk too, and no half-written file is left."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from overrun_hitch.parameters import FIGURES, HitchError
+from overrun_hitch.results import read_csv, scenario_of, write_atomically, write_csv
+
+OracleRun = Callable[..., xr.Dataset]
+
+
+def test_csv_keeps_every_digit_and_unit(oracle_run: OracleRun, tmp_path: Path) -> None:
+    run = oracle_run(FIGURES["8"])
+    path = tmp_path / "new" / "run.csv"
+    write_csv(run, path)
+    assert path.read_text(encoding="utf-8").startswith("time [s],v_car [m/s],v_trailer [m/s],a_car [m/s2],")
+    back = read_csv(path)
+    xr.testing.assert_identical(back, run.drop_attrs(deep=False))
+    assert [entry.name for entry in path.parent.iterdir()] == ["run.csv"]
+
+
+def test_the_scenario_is_in_the_attributes(oracle_run: OracleRun) -> None:
+    assert scenario_of(oracle_run(FIGURES["10"])) == FIGURES["10"]
+    with pytest.raises(HitchError, match=r"^the result does not say what was run: attribute scenario is missing$"):
+        scenario_of(xr.Dataset())
+
+
+@pytest.mark.parametrize("text", ["", "time [s]\n1,2\n", "time [s]\nx\n", "time [s],v_car [km/h]\n0,1\n", "\x00\n1\n"])
+def test_anything_else_is_refused_in_one_line(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "bad.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(HitchError, match=r"bad\.csv") as caught:
+        read_csv(path)
+    assert "\n" not in str(caught.value)
+    with pytest.raises(HitchError, match=r"cannot read"):
+        read_csv(tmp_path / "none.csv")
+
+
+def test_a_write_that_fails_leaves_what_was_there(tmp_path: Path) -> None:
+    path = tmp_path / "run.csv"
+    path.write_text("before")
+
+    def interrupted(temporary: Path) -> None:
+        temporary.write_text("half")
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        write_atomically(path, interrupted)
+    assert path.read_text() == "before"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_variables_say_what_they_are(oracle_run: OracleRun) -> None:
+    run = oracle_run(FIGURES["8"])
+    for name in [*run.data_vars, "time"]:
+        assert run[name].attrs["units"]
+        assert run[name].attrs["long_name"]
+        assert np.isfinite(run[name]).all()
