@@ -78,7 +78,8 @@ class _Run:
     compression: Floats
     slip: float  # the largest
     mode: ShuntingMode | None  # along v_car; None: there is none (k = r = 0)
-    out_of_compression: str  # "" or a sentence
+    stays: bool  # in compression from here on
+    out_of_compression: str  # "" or a sentence about when the drawbar is not in compression
 
     def decay(self, measure: float) -> int:
         """How many samples pass until theory has the oscillation fall by exp(-measure)."""
@@ -103,7 +104,7 @@ def compare(run: xr.Dataset, alone: xr.Dataset) -> list[Row]:
 def _settled_part(run: xr.Dataset) -> _Run:
     p = scenario_of(run).parameters
     time, compression = values(run, "time"), values(run, "compression")
-    entry, sentence = _compressed_from(time, compression, values(run, "v_trailer") - values(run, "v_car"), p.eps)
+    entry, stays, sentence = _compressed_from(time, compression, values(run, "v_trailer") - values(run, "v_car"), p.eps)
     try:
         start = max(entry, WHEELS_SETTLED / max(wheel_decay_rate(p, p.V_0), 1e-9))
         mode_exists = True
@@ -119,27 +120,28 @@ def _settled_part(run: xr.Dataset) -> _Run:
         compression=compression[after],
         slip=float(np.abs([values(run, "slip_car")[after], values(run, "slip_trailer")[after]]).max()),
         mode=shunting_mode(p, v_car) if mode_exists else None,
+        stays=stays,
         out_of_compression=sentence,
     )
 
 
-def _compressed_from(time: Floats, compression: Floats, rate: Floats, eps: float) -> tuple[float, str]:
-    """When (s) the drawbar is first compressed, and a sentence if it was not so before or does not stay so.
+def _compressed_from(time: Floats, compression: Floats, rate: Floats, eps: float) -> tuple[float, bool, str]:
+    """When (s) the drawbar is first compressed, whether it stays so, and a sentence if it was or is not so.
 
     Looked for on the cubic through values and rates, because a short visit can lie between two samples.
     """
     fine = np.linspace(time[0], time[-1], 16 * (len(time) - 1) + 1)
     inside = CubicHermiteSpline(time, compression, rate)(fine) > eps
     if not inside.any():
-        return float(time[0]), "drawbar is never in compression"
+        return float(time[0]), False, "drawbar is never in compression"
     first = int(inside.argmax())
     entry = float(fine[first])
     if not inside[first:].all():
         leaves = fine[first + int((~inside[first:]).argmax())]
-        return entry, f"drawbar leaves compression at t = {leaves:.2f} s"
+        return entry, False, f"drawbar leaves compression at t = {leaves:.2f} s"
     if compression[0] < eps:
-        return entry, f"drawbar comes into compression only at t = {entry:.2f} s"
-    return entry, ""
+        return entry, True, f"drawbar comes into compression only at t = {entry:.2f} s"
+    return entry, True, ""
 
 
 def _mode_rows(part: _Run, window: slice, found: Oscillation | NoOscillation) -> list[Row]:
@@ -186,14 +188,15 @@ def _steady_rows(part: _Run, found: Oscillation | NoOscillation, run: xr.Dataset
 
 def _steady_values(part: _Run, found: Oscillation | NoOscillation) -> tuple[float, float, str]:
     """A (m/s2), D (m) and why they are not to be judged: from the settled end of the run, else from the fit."""
+    reason = part.out_of_compression
     settled = part.decay(SETTLED)
-    if not part.out_of_compression and settled < len(part.time) - 1:
+    if part.stays and settled < len(part.time) - 1:
         tail = slice(settled, None)
-        return _mean(part.time[tail], part.a_car[tail]), _mean(part.time[tail], part.compression[tail]), ""
-    if not part.out_of_compression and isinstance(found, Oscillation):
+        return _mean(part.time[tail], part.a_car[tail]), _mean(part.time[tail], part.compression[tail]), reason
+    if part.stays and isinstance(found, Oscillation):
         fitted = slice(0, part.decay(DECAYED) + 1)
-        return found.offset_of(part.time[fitted], part.a_car[fitted]), found.offset, ""
-    reason = part.out_of_compression or "the run ends before the motion has settled"
+        return found.offset_of(part.time[fitted], part.a_car[fitted]), found.offset, reason
+    reason = reason or "the run ends before the motion has settled"
     return _mean(part.time, part.a_car), _mean(part.time, part.compression), reason
 
 

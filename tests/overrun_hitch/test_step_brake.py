@@ -38,9 +38,10 @@ def test_it_follows_the_oracle(
     def error(name: str) -> float:
         return float(np.abs(run[name].values - getattr(oracle, name)[::milliseconds]).max())
 
-    assert error("compression") < metres
-    assert error("v_car") < speed
-    assert error("v_trailer") < speed
+    errors = {name: error(name) for name in ("compression", "v_car", "v_trailer")}
+    print(f"figure {figure}, tolerance {tolerance:g}, step {milliseconds} ms:", errors)
+    assert errors["compression"] < metres
+    assert max(errors["v_car"], errors["v_trailer"]) < speed
     # Forces follow from compression and speed, accelerations from forces; slip's error is speed's over 20 m/s at least.
     force = p.k_t * metres + 2.0 * p.C * speed
     assert error("F_hitch") < force
