@@ -7,12 +7,10 @@ readable.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import sympy
 
 from .ir import TIME, Assignment, JacobianModel, SortedModel, symbol
-from .slices import needed_for
+from .slices import needed_for, reaching
 
 
 def differentiate(model: SortedModel) -> JacobianModel:
@@ -30,7 +28,9 @@ def differentiate(model: SortedModel) -> JacobianModel:
                 time_entries[row] = value
             else:
                 entries[row, states[seed]] = value
-    return JacobianModel(_used(locals_, (*entries.values(), *time_entries.values())), entries, time_entries)
+    results = (*entries.values(), *time_entries.values())
+    used = reaching(set().union(*(value.free_symbols for value in results)), locals_)
+    return JacobianModel(used, entries, time_entries)
 
 
 def _gradient(
@@ -52,14 +52,3 @@ def _gradient(
             value = symbol(name)
         result[seed] = value
     return result
-
-
-def _used(locals_: list[Assignment], results: Iterable[sympy.Expr]) -> tuple[Assignment, ...]:
-    """Only the local assignments that reach a result."""
-    wanted = set().union(*(value.free_symbols for value in results))
-    kept: list[Assignment] = []
-    for assignment in reversed(locals_):
-        if symbol(assignment.target) in wanted:
-            kept.append(assignment)
-            wanted |= assignment.expression.free_symbols
-    return tuple(reversed(kept))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import sympy
 
@@ -11,12 +11,12 @@ from .ir import Assignment, SortedModel, holds, symbol
 
 def needed_for(targets: Iterable[str], model: SortedModel) -> tuple[Assignment, ...]:
     """The assignments, in order, that computing ``targets`` takes."""
-    return _slice({symbol(name) for name in targets}, model.assignments)
+    return reaching({symbol(name) for name in targets}, model.assignments)
 
 
 def needed_for_relations(model: SortedModel) -> tuple[Assignment, ...]:
     """The assignments, in order, that the residuals of the relations take."""
-    return _slice(set().union(*(r.residual.free_symbols for r in model.relations)), model.assignments)
+    return reaching(set().union(*(r.residual.free_symbols for r in model.relations)), model.assignments)
 
 
 def dependencies(model: SortedModel) -> dict[str, frozenset[str]]:
@@ -60,8 +60,10 @@ def _sources(expression: sympy.Expr, model: SortedModel, result: dict[str, froze
     return frozenset().union(*(result.get(s.name, frozenset()) for s in symbols))
 
 
-def _slice(wanted: set[sympy.Symbol], assignments: tuple[Assignment, ...]) -> tuple[Assignment, ...]:
+def reaching(wanted: set[sympy.Symbol], assignments: Sequence[Assignment]) -> tuple[Assignment, ...]:
+    """Those of the sorted ``assignments`` that computing ``wanted`` takes, in their order."""
     kept: list[Assignment] = []
+    wanted = set(wanted)
     for assignment in reversed(assignments):
         if symbol(assignment.target) in wanted:
             kept.append(assignment)
