@@ -3,14 +3,24 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import sympy
 from sympy.printing.c import C11CodePrinter
 
-from .ir import DEFAULT_TOLERANCE, TIME, Assignment, CSources, JacobianModel, SortedModel, Variable
-from .slices import needed_for, needed_for_relations, start_value, tunable_parameters
+from .ir import (
+    DEFAULT_TOLERANCE,
+    TIME,
+    Assignment,
+    CSources,
+    JacobianModel,
+    Partials,
+    SortedModel,
+    Variable,
+    relation_name,
+)
+from .slices import needed_for, start_value, tunable_parameters
 
 TOKEN_PLACEHOLDER = "{00000000-0000-0000-0000-000000000000}"
 C_KEYWORDS = frozenset(C11CodePrinter.reserved_words) | {"inline", "restrict", "bool", "true", "false", "at"}
@@ -41,11 +51,11 @@ class _Printer(C11CodePrinter):  # type: ignore[misc]
 
     def __init__(self, names: dict[str, str]) -> None:
         super().__init__()
-        self._names = names
+        self.names = names
 
     def _print_Symbol(self, expr: sympy.Symbol) -> str:
-        if expr.name in self._names:
-            return f"v->{self._names[expr.name]}"
+        if expr.name in self.names:
+            return f"v->{self.names[expr.name]}"
         return expr.name if expr.name.startswith("holds[") else local_name(expr.name)
 
     def _print_Float(self, expr: sympy.Float) -> str:
@@ -117,7 +127,8 @@ def _model(model: SortedModel, jacobian: JacobianModel, printer: _Printer) -> st
     rows = "\n".join(_info(name, kinds[name], model) for name in model.value_references)
     outputs = _lines(model.assignments, printer)
     derivatives = _lines(needed_for(model.derivatives, model), printer)
-    residuals = [f"z[{i}] = {printer.text(r.residual)};" for i, r in enumerate(model.relations)]
+    residuals = [relation_name(i) for i in range(len(model.relations))]
+    references = [str(model.value_references[name]) for name in residuals] or ["0"]
     sections = [
         _function("model_parameters(Variables *v)", _lines(model.parameter_assignments, printer)),
         _function("model_start(Variables *v)", _lines(model.start_assignments, printer)),
@@ -126,8 +137,13 @@ def _model(model: SortedModel, jacobian: JacobianModel, printer: _Printer) -> st
         _jacobian(model, jacobian, printer),
         _function(
             "model_relations(Variables *v, const bool holds[], double z[])",
-            [*_lines(needed_for_relations(model), printer), *residuals],
+            [
+                *_lines(needed_for(residuals, model), printer),
+                *(f"z[{i}] = v->{printer.names[name]};" for i, name in enumerate(residuals)),
+            ],
         ),
+        _chain("model_tangent", jacobian, printer, _tangent),
+        _chain("model_adjoint", jacobian, printer, _adjoint),
     ]
     return f"""/* Generated from {model.name}. Each line bears the place in the Modelica source that it comes from. */
 #include "model.h"
@@ -140,7 +156,47 @@ const VariableInfo variable_info[N_VARIABLES] = {{
 
 const char *const relation_text[AT_LEAST_ONE(N_RELATIONS)] = {{{relations}}};
 
+const unsigned relation_reference[AT_LEAST_ONE(N_RELATIONS)] = {{{", ".join(references)}}};
+
 """ + "\n".join(sections)
+
+
+Direction = Callable[[Iterable[Partials], _Printer], list[str]]
+
+
+def _chain(name: str, jacobian: JacobianModel, printer: _Printer, lines: Direction) -> str:
+    """The chain rule through all assignments, in one direction."""
+    start = [f"    {line}" for line in lines(jacobian.start_partials, printer)]
+    blocks = [
+        lines(jacobian.parameter_partials, printer),
+        ["if (at_start) {", *start, "}"] if start else [],
+        lines(jacobian.partials, printer),
+    ]
+    ordered = blocks if lines is _tangent else blocks[::-1]
+    signature = f"{name}(const Variables *v, const bool holds[], bool at_start, Variables *d)"
+    return _function(signature, [line for block in ordered for line in block])
+
+
+def _tangent(partials: Iterable[Partials], printer: _Printer) -> list[str]:
+    """``d->y = dy/da d->a + dy/db d->b``"""
+    lines = []
+    for p in partials:
+        terms = [_product(value, f"d->{printer.names[name]}", printer) for name, value in p.by_argument]
+        lines.append(f"d->{printer.names[p.target]} = {' + '.join(terms) or '0.0'}; /* {p.origin} */")
+    return lines
+
+
+def _adjoint(partials: Iterable[Partials], printer: _Printer) -> list[str]:
+    """In the reverse order ``d->a += dy/da d->y``, ``d->b += dy/db d->y``"""
+    return [
+        f"d->{printer.names[name]} += {_product(value, f'd->{printer.names[p.target]}', printer)}; /* {p.origin} */"
+        for p in reversed(list(partials))
+        for name, value in p.by_argument
+    ]
+
+
+def _product(value: sympy.Expr, factor: str, printer: _Printer) -> str:
+    return factor if value == 1 else f"-{factor}" if value == -1 else f"({printer.text(value)})*{factor}"
 
 
 def _function(signature: str, lines: list[str]) -> str:
@@ -153,7 +209,7 @@ def _function(signature: str, lines: list[str]) -> str:
 
 
 def _lines(assignments: Iterable[Assignment], printer: _Printer) -> list[str]:
-    return [f"v->{printer._names[a.target]} = {printer.text(a.expression)}; /* {a.origin} */" for a in assignments]
+    return [f"v->{printer.names[a.target]} = {printer.text(a.expression)}; /* {a.origin} */" for a in assignments]
 
 
 def _jacobian(model: SortedModel, jacobian: JacobianModel, printer: _Printer) -> str:

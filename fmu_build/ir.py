@@ -24,6 +24,11 @@ def der(name: str) -> str:
     return f"der({name})"
 
 
+def relation_name(index: int) -> str:
+    """Name of the variable that is the residual of relation ``index``."""
+    return f"relation[{index + 1}]"
+
+
 def holds(index: int) -> sympy.Symbol:
     """The truth value of relation ``index``, constant between events."""
     return sympy.Symbol(f"holds[{index}]")
@@ -134,7 +139,7 @@ class SortedModel:
     start_assignments: tuple[Assignment, ...]  # states whose start follows from parameters
     start_values: dict[str, float] = field(hash=False)  # states whose start is a number
     assignments: tuple[Assignment, ...]
-    relations: tuple[Relation, ...]
+    relations: tuple[Relation, ...]  # the residual of number i is the variable relation_name(i)
 
     @property
     def derivatives(self) -> tuple[str, ...]:
@@ -152,11 +157,26 @@ class SortedModel:
 
 
 @dataclass(frozen=True)
-class JacobianModel:
-    """Exact derivatives of the states' derivatives: local assignments, then one entry per pair that can be nonzero."""
+class Partials:
+    """The partial derivatives of one assignment by each of its arguments."""
 
+    target: str
+    by_argument: tuple[tuple[str, sympy.Expr], ...]
+    origin: str
+
+
+@dataclass(frozen=True)
+class JacobianModel:
+    """Exact derivatives: those of every assignment by itself, and chained those of the states' derivatives.
+
+    The chained ones are local assignments, then one entry per pair (derivative, state) that can be nonzero.
+    """
+
+    parameter_partials: tuple[Partials, ...]
+    start_partials: tuple[Partials, ...]
+    partials: tuple[Partials, ...]
     assignments: tuple[Assignment, ...]
-    entries: dict[tuple[int, int], sympy.Expr] = field(hash=False)  # (derivative, state)
+    entries: dict[tuple[int, int], sympy.Expr] = field(hash=False)
     time_entries: dict[int, sympy.Expr] = field(hash=False)
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import sympy
 
-from .ir import TIME, Assignment, JacobianModel, SortedModel, symbol
+from .ir import TIME, Assignment, JacobianModel, Partials, SortedModel, symbol
 from .slices import needed_for, reaching
 
 
@@ -29,8 +29,25 @@ def differentiate(model: SortedModel) -> JacobianModel:
             else:
                 entries[row, states[seed]] = value
     results = (*entries.values(), *time_entries.values())
-    used = reaching(set().union(*(value.free_symbols for value in results)), locals_)
-    return JacobianModel(used, entries, time_entries)
+    return JacobianModel(
+        parameter_partials=_partials(model.parameter_assignments),
+        start_partials=_partials(model.start_assignments),
+        partials=_partials(model.assignments),
+        assignments=reaching(set().union(*(value.free_symbols for value in results)), locals_),
+        entries=entries,
+        time_entries=time_entries,
+    )
+
+
+def _partials(assignments: tuple[Assignment, ...]) -> tuple[Partials, ...]:
+    return tuple(
+        Partials(
+            a.target,
+            tuple((s.name, a.expression.diff(s)) for s in sorted(a.expression.free_symbols, key=str) if s.is_real),
+            a.origin,
+        )
+        for a in assignments
+    )
 
 
 def _gradient(

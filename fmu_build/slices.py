@@ -14,11 +14,6 @@ def needed_for(targets: Iterable[str], model: SortedModel) -> tuple[Assignment, 
     return reaching({symbol(name) for name in targets}, model.assignments)
 
 
-def needed_for_relations(model: SortedModel) -> tuple[Assignment, ...]:
-    """The assignments, in order, that the residuals of the relations take."""
-    return reaching(set().union(*(r.residual.free_symbols for r in model.relations)), model.assignments)
-
-
 def dependencies(model: SortedModel) -> dict[str, frozenset[str]]:
     """For each computed variable the states, inputs, parameters and time that it depends on at a fixed time.
 

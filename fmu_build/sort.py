@@ -10,18 +10,24 @@ import networkx as nx
 import sympy
 
 from .errors import BuildError
-from .ir import Assignment, Equation, EquationSystem, SortedModel, Variable, der, symbol
+from .ir import Assignment, Equation, EquationSystem, SortedModel, Variable, der, relation_name, symbol
 from .units import per_second
 
 
 def sort(system: EquationSystem) -> SortedModel:
     """The sorted model; BuildError where unknowns cannot be computed one after another."""
     model = system.model
+    variables = _with_derivatives(system)
+    residuals = [Assignment(relation_name(i), r.residual, r.origin) for i, r in enumerate(system.relations)]
+    variables |= {
+        r.target: _residual_variable(r, text.text, variables)
+        for r, text in zip(residuals, system.relations, strict=True)
+    }
     return SortedModel(
         name=model.name,
         description=model.description,
         experiment=model.experiment,
-        variables=_with_derivatives(system),
+        variables=variables,
         aliases=system.aliases,
         states=system.states,
         inputs=system.inputs,
@@ -33,7 +39,7 @@ def sort(system: EquationSystem) -> SortedModel:
             if not start.is_number
         ),
         start_values={state: float(start) for state, start in system.starts.items() if start.is_number},
-        assignments=_assignments(list(system.equations), list(system.unknowns)),
+        assignments=(*_assignments(list(system.equations), list(system.unknowns)), *residuals),
         relations=system.relations,
     )
 
@@ -48,6 +54,14 @@ def _with_derivatives(system: EquationSystem) -> dict[str, Variable]:
                 unknown, f"Time derivative of {of.name}", per_second(of.unit), hidden=of.hidden
             )
     return variables
+
+
+def _residual_variable(residual: Assignment, text: str, variables: dict[str, Variable]) -> Variable:
+    """The residual of a relation as a variable; its unit is that of one of the things compared."""
+    terms = sympy.Add.make_args(residual.expression)
+    names = [str(s) for term in terms for s in (term, -term) if s.is_Symbol and str(s) in variables]
+    unit = variables[names[0]].unit if names else ""
+    return Variable(residual.target, f"Positive where {text} ({residual.origin})", unit, hidden=True)
 
 
 def _assignments(equations: list[Equation], unknowns: list[str]) -> tuple[Assignment, ...]:

@@ -60,6 +60,9 @@ extern const VariableInfo variable_info[N_VARIABLES];
 /* The residual of every relation as text, "compression > eps", for messages; one empty string if there are none. */
 extern const char *const relation_text[AT_LEAST_ONE(N_RELATIONS)];
 
+/* The residuals as variables: their indices in Variables.at[]; one 0 if there are none. */
+extern const unsigned relation_reference[AT_LEAST_ONE(N_RELATIONS)];
+
 /* Every function reads and writes v only; each computes all intermediate variables that it needs by itself. */
 
 /* Calculated parameters, from parameters. */
@@ -80,5 +83,14 @@ void model_jacobian(Variables *v, const bool holds[], double jacobian[], double 
 
 /* Residuals of the relations. */
 void model_relations(Variables *v, const bool holds[], double z[]);
+
+/* Chain rule, forward: d bears the tangents of what is known (time, states, inputs, parameters; zero where there is no
+ * seed), and gets the tangents of all that is calculated. v must be current. At the start the states of kind
+ * STATE_CALCULATED are calculated, otherwise they are known. */
+void model_tangent(const Variables *v, const bool holds[], bool at_start, Variables *d);
+
+/* Chain rule, reverse: d bears the seeds of what is calculated, zero elsewhere, and gets the adjoints of what is known
+ * (those of what is calculated are left over from the way). */
+void model_adjoint(const Variables *v, const bool holds[], bool at_start, Variables *d);
 
 #endif

@@ -86,6 +86,21 @@ class CompiledModel:
         self._call("model_jacobian", self.relations() > 0, jacobian, time_derivative)
         return np.column_stack([jacobian, time_derivative])
 
+    def tangent(self, seeds: dict[str, float], at_start: bool) -> dict[str, float]:
+        return self._chained("model_tangent", seeds, at_start)
+
+    def adjoint(self, seeds: dict[str, float], at_start: bool) -> dict[str, float]:
+        return self._chained("model_adjoint", seeds, at_start)
+
+    def _chained(self, function: str, seeds: dict[str, float], at_start: bool) -> dict[str, float]:
+        d = np.zeros(len(self.at))
+        for name, value in seeds.items():
+            d[self.references[name]] = value
+        holds = self.relations() > 0
+        pointers = [ctypes.c_void_p(a.ctypes.data) for a in (self.at, holds, d)]
+        getattr(self._library, function)(pointers[0], pointers[1], ctypes.c_bool(at_start), pointers[2])
+        return {name: float(d[reference]) for name, reference in self.references.items()}
+
 
 @pytest.fixture
 def compiled_model(sorted_model: Callable[[str], SortedModel], tmp_path: Path) -> Callable[[str], CompiledModel]:

@@ -151,3 +151,36 @@ equation
   der(double) = a.b_c*a_b_c;
 end M;"""
     assert compiled_model(text).derivatives()[0] == 15.0
+
+
+@pytest.mark.parametrize("s_rel", [0.5, 0.02, -0.6])
+@pytest.mark.parametrize("at_start", [False, True])
+def test_tangent_against_differences_and_adjoint_against_tangent(
+    compiled_model: Compile, s_rel: float, at_start: bool
+) -> None:
+    model = compiled_model(TWO_MASSES)
+    known = ["time", *model.model.states, *model.model.parameters]
+    if at_start:
+        known.remove("x")  # it follows from the parameter gap
+    for name, value in {"time": 0.7, "x": 0.05, "y": 0.05 + s_rel, "v": 0.8, "w": -0.4}.items():
+        model[name] = value
+    model.outputs()
+    computed = [a.target for a in model.model.assignments]
+    tangents = np.array([[model.tangent({name: 1.0}, at_start)[c] for c in computed] for name in known])
+    adjoints = np.array([[model.adjoint({c: 1.0}, at_start)[name] for c in computed] for name in known])
+    np.testing.assert_allclose(adjoints, tangents, rtol=1e-14, atol=1e-14)
+    step = 1e-6
+    for row, name in enumerate(known):
+        values = []
+        for sign in (1, -1):
+            before = model[name]
+            model[name] = before + sign * step
+            if at_start and name == "gap":
+                model["x"] = model["gap"] / 2
+            model.outputs()
+            values.append([model[c] for c in computed])
+            model[name] = before
+            if at_start and name == "gap":
+                model["x"] = before / 2
+        difference = (np.array(values[0]) - np.array(values[1])) / (2 * step)
+        np.testing.assert_allclose(tangents[row], difference, rtol=1e-7, atol=1e-8)
