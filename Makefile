@@ -1,36 +1,51 @@
 .DEFAULT_GOAL := help
-.PHONY: help run test fmu lint format lock clean
+.PHONY: help run test test-platforms fmu fmu-all bench sanitize lint format lock clean
 
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
-FMU := build/fmi2/CarTrailer.fmu
+FMUS := build/fmi2/CarTrailer.fmu build/fmi3/CarTrailer.fmu
+BUILD := $(BIN)/python -m fmu_build modelica/OverrunHitch OverrunHitch.Systems.CarTrailer
+C_FILES := fmu_build/runtime/*.[ch] tests/platforms/*.[ch] benchmarks/*.c
 
 help:  ## list the targets
-	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-8s %s\n", $$1, $$2}'
+	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-15s %s\n", $$1, $$2}'
 
 run: $(READY)  ## build what is missing, brake, compare with theory, draw (build/run)
 	$(BIN)/hitch run
 
-test: $(READY)  ## run all tests
-	$(BIN)/python -m pytest
+test: $(READY)  ## run the tests, on all cores
+	$(BIN)/python -m pytest -n auto
 
-fmu: $(FMU)  ## build the FMU for this machine
+test-platforms: $(READY)  ## build for all systems and run what can be run here (minutes, the first time)
+	$(BIN)/python -m pytest -m platforms -rs
 
-$(FMU): $(READY) $(shell find modelica fmu_build -name '*.mo' -o -name '*.order' -o -name '*.py' -o -name '*.[ch]')
-	$(BIN)/python -m fmu_build modelica/OverrunHitch OverrunHitch.Systems.CarTrailer -o $@
+fmu: $(FMUS)  ## build the FMUs for this machine, FMI 2 and 3
+
+build/fmi%/CarTrailer.fmu: $(READY) $(shell find modelica fmu_build -name '*.mo' -o -name '*.order' -o -name '*.py' -o -name '*.[ch]')
+	$(BUILD) -o $@ --fmi $*
+
+fmu-all: $(READY)  ## build them for Linux, Windows and macOS (minutes, the first time)
+	$(BUILD) -o build/fmi2/CarTrailer.fmu --fmi 2 --platforms all
+	$(BUILD) -o build/fmi3/CarTrailer.fmu --fmi 3 --platforms all
+
+bench: $(READY) $(word 1,$(FMUS))  ## measure six seconds in C against what they may take (benchmarks/results.md)
+	$(BIN)/python -m benchmarks.six_seconds $(word 1,$(FMUS))
+
+sanitize: $(READY)  ## run the C drivers under AddressSanitizer and UndefinedBehaviorSanitizer
+	$(BIN)/python -m pytest tests/platforms/test_sanitized.py
 
 lint: $(READY)  ## ruff, mypy, layers of imports, format of the C sources
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	$(BIN)/clang-format --dry-run --Werror fmu_build/runtime/*.[ch]
+	$(BIN)/clang-format --dry-run --Werror $(C_FILES)
 
 format: $(READY)  ## format Python and C
 	$(BIN)/ruff check --fix
 	$(BIN)/ruff format
-	$(BIN)/clang-format -i fmu_build/runtime/*.[ch]
+	$(BIN)/clang-format -i $(C_FILES)
 
 lock: $(READY)  ## renew the pinned versions in requirements.txt
 	$(BIN)/python -m pip install --quiet uv

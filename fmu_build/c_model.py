@@ -12,6 +12,7 @@ from sympy.printing.c import C11CodePrinter
 from .ir import (
     DEFAULT_TOLERANCE,
     TIME,
+    TOKEN_PLACEHOLDER,
     Assignment,
     CSources,
     JacobianModel,
@@ -22,7 +23,6 @@ from .ir import (
 )
 from .slices import needed_for, start_value, tunable_parameters
 
-TOKEN_PLACEHOLDER = "{00000000-0000-0000-0000-000000000000}"
 C_KEYWORDS = frozenset(C11CodePrinter.reserved_words) | {"inline", "restrict", "bool", "true", "false", "at"}
 
 

@@ -1,8 +1,9 @@
 """A FlatModel to an EquationSystem: bindings become equations, aliases go, states are chosen.
 
 A variable that is differentiated is a state, unless an equation ties it to other states alone, as
-``compression = x_t - x_c`` does. Then it is computed from them, and its derivative from the total time derivative of
-that equation.
+``compression = x_t - x_c`` does. Then one of them, that with the least stateSelect, is computed from the others, and
+one more derivative follows from the total time derivative of that equation. A fixed start value of the one that is
+computed is passed on to one whose start value is free.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ def derive(model: FlatModel) -> EquationSystem:
         for v in model.variables
         if v.variability == "continuous" and v.name not in aliases and v.causality != "input"
     ]
-    states, reduced = _choose_states(reduced, algebraics, variables)
+    states, reduced, starts = _choose_states(reduced, algebraics, variables)
     derivatives = [name for name in (der(n) for n in algebraics) if symbol(name) in _symbols(reduced)]
     unknowns = (*derivatives, *(n for n in algebraics if n not in states))
     return EquationSystem(
@@ -51,7 +52,7 @@ def derive(model: FlatModel) -> EquationSystem:
         relations=relations,
         parameters=parameters,
         bound_parameters=bound,
-        starts={name: start.xreplace(values) for name in states if (start := variables[name].start) is not None},
+        starts={name: starts[name].xreplace(values) for name in states if name in starts},
         aliases=aliases,
     )
 
@@ -74,10 +75,11 @@ def _aliases(equations: Iterable[Equation], variables: Mapping[str, Variable]) -
         sets.update(dict.fromkeys(merged, merged))
     order = list(variables)
 
-    def rank(name: str) -> tuple[bool, bool, bool, int, int]:
+    def rank(name: str) -> tuple[bool, int, bool, bool, int, int]:
         v = variables[name]
         is_free = v.binding is None or not v.binding.is_Symbol
-        return (v.causality != "input", not v.fixed, not is_free, name.count("."), order.index(name))
+        dots = name.count(".")
+        return (v.causality != "input", -v.state_select, not v.fixed, not is_free, dots, order.index(name))
 
     roots = {name: min(members, key=rank) for name, members in sets.items()}
     return {name: roots[name] for name in order if name in roots and roots[name] != name}
@@ -136,9 +138,12 @@ def _parameters(
 
 def _choose_states(
     equations: list[Equation], algebraics: list[str], variables: Mapping[str, Variable]
-) -> tuple[tuple[str, ...], list[Equation]]:
+) -> tuple[tuple[str, ...], list[Equation], dict[str, sympy.Expr]]:
+    """The states, the equations with those that are added, and the start values of the states."""
     names = {symbol(n): n for n in algebraics}
     states = [n for n in algebraics if symbol(der(n)) in _symbols(equations)]
+    starts = {n: start for n in states if (start := variables[n].start) is not None}
+    fixed = {n for n in states if variables[n].fixed}
     derivatives = {symbol(der(n)) for n in algebraics}
     result = list(equations)
     for equation in equations:
@@ -146,22 +151,34 @@ def _choose_states(
         occurring = [names[s] for s in symbols if s in names]
         if not occurring or symbols & derivatives or not set(occurring) <= set(states):
             continue
-        demoted = _demote(equation, sorted(occurring, key=algebraics.index), variables)
+        candidates = sorted(occurring, key=lambda n: (variables[n].state_select, n in fixed, -algebraics.index(n)))
+        demoted = next((n for n in candidates if not equation.residual.diff(symbol(n)).has(symbol(n))), None)
+        if demoted is None:
+            raise BuildError(f"{equation.origin}: not linear in any of the states {', '.join(candidates)} that it ties")
+        if demoted in fixed:
+            free = next((n for n in reversed(candidates) if n not in fixed), None)
+            starts[_required(free, equation, candidates)] = _start_from_others(equation, str(free), starts)
+            fixed.add(str(free))
         states.remove(demoted)
         result.append(Equation(_total_derivative(equation, demoted, set(occurring), variables), equation.origin))
-    return tuple(states), result
+    return tuple(states), result, starts
 
 
-def _demote(equation: Equation, candidates: list[str], variables: Mapping[str, Variable]) -> str:
-    """The one of ``candidates`` that the equation is to define: it must be linear in it, and its start value free."""
-    for name in candidates:
-        slope = equation.residual.diff(symbol(name))
-        if not variables[name].fixed and not slope.has(symbol(name)):
-            return name
-    raise BuildError(
-        f"{equation.origin}: this equation ties the states {', '.join(candidates)} to each other, and each has a fixed"
-        " start value: index reduction is not supported; drop fixed=true from the one that follows from the others"
-    )
+def _required(free: str | None, equation: Equation, candidates: list[str]) -> str:
+    if free is None:
+        raise BuildError(
+            f"{equation.origin}: this equation ties the states {', '.join(candidates)} to each other, and each has a"
+            " fixed start value: index reduction is not supported; drop fixed=true from the one that follows from the"
+            " others"
+        )
+    return free
+
+
+def _start_from_others(equation: Equation, name: str, starts: Mapping[str, sympy.Expr]) -> sympy.Expr:
+    """The start value that the equation, linear in ``name``, gives it where the others have theirs."""
+    slope = equation.residual.diff(symbol(name))
+    solution = -equation.residual.xreplace({symbol(name): sympy.Integer(0)}) / slope
+    return solution.xreplace({symbol(n): start for n, start in starts.items() if n != name})
 
 
 def _total_derivative(

@@ -14,9 +14,10 @@ from typing import Any
 import rumoca
 import sympy
 
+from .annotations import class_text, read_documentation, read_experiment, read_icon
 from .errors import BuildError
 from .expressions import ExpressionReader, Sources, unwrap
-from .ir import Equation, Experiment, FlatModel, Variable
+from .ir import Equation, FlatModel, Variable
 
 UNSUPPORTED_SECTIONS = {
     "initial_equations": "initial equations",
@@ -27,6 +28,7 @@ UNSUPPORTED_SECTIONS = {
     "initial_assert_equations": "assert",
     "functions": "functions",
 }
+STATE_SELECT = {"Never": -2, "Avoid": -1, "Default": 0, "Prefer": 1, "Always": 2}
 
 
 def flatten(path: Path, class_name: str) -> FlatModel:
@@ -52,13 +54,16 @@ def flatten(path: Path, class_name: str) -> FlatModel:
         Equation(reader.read(node["residual"]).xreplace(constants), _equation_origin(node, sources))
         for node in flat["equations"]
     )
+    text = class_text(class_name, sources.texts())
     return FlatModel(
         name=class_name,
         description=flat["model_description"] or "",
         variables=tuple(v for v in variables if v.variability != "constant"),
         equations=equations,
         relations=tuple(reader.relations),
-        experiment=_experiment(class_name, sources),
+        experiment=read_experiment(text),
+        documentation=read_documentation(text),
+        icon=read_icon(text),
     )
 
 
@@ -115,6 +120,7 @@ def _variable(
         nominal=number("nominal"),
         hidden=bool(node["is_protected"]),
         final=bool(flat["variable_final_flags"].get(name, False)),
+        state_select=STATE_SELECT[unwrap(node["state_select"])],
         origin=origin,
     )
 
@@ -126,19 +132,6 @@ def _equation_origin(node: dict[str, Any], sources: Sources) -> str:
     if kind == "FlowSum":
         return str(detail["description"])
     return sources.place(node["span"])
-
-
-def _experiment(class_name: str, sources: Sources) -> Experiment:
-    """The experiment annotation, from the class's own text: rumoca's flat form leaves annotations out."""
-    short_name = re.escape(class_name.rpartition(".")[2])
-    for text in sources.texts():
-        body = re.search(rf"\b(?:model|block|class)\s+{short_name}\b.*?\bend\s+{short_name}\s*;", text, re.DOTALL)
-        annotation = body and re.search(r"\bexperiment\s*\(([^)]*)\)", body.group(0))
-        if annotation:
-            pairs = re.findall(r"(\w+)\s*=\s*([-+.\deE]+)", annotation.group(1))
-            values = {key: float(value) for key, value in pairs}
-            return Experiment(*(values.get(key) for key in ("StartTime", "StopTime", "Tolerance", "Interval")))
-    return Experiment()
 
 
 def _located_message(error: Exception, entry: Path, class_name: str) -> str:

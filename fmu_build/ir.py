@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import sympy
 
 TIME = "time"
+TOKEN_PLACEHOLDER = "{00000000-0000-0000-0000-000000000000}"  # stands where the content's hash will stand
 DEFAULT_TOLERANCE = 1e-6  # relative tolerance where the experiment annotation gives none (OpenModelica's default too)
 
 
@@ -52,6 +53,7 @@ class Variable:
     nominal: float | None = None
     hidden: bool = False  # protected
     final: bool = False
+    state_select: int = 0  # StateSelect: never -2, avoid -1, default 0, prefer 1, always 2
     origin: str = ""
 
 
@@ -92,6 +94,8 @@ class FlatModel:
     equations: tuple[Equation, ...]
     relations: tuple[Relation, ...]
     experiment: Experiment
+    documentation: str = ""  # HTML of the Documentation annotation
+    icon: str = ""  # Modelica text of the Icon annotation
 
 
 @dataclass(frozen=True)
@@ -130,8 +134,7 @@ class SortedModel:
     name: str
     description: str
     experiment: Experiment
-    variables: dict[str, Variable] = field(hash=False)  # by name; aliases included, derivatives too
-    aliases: dict[str, str] = field(hash=False)
+    variables: dict[str, Variable] = field(hash=False)  # by name: those of the flat model, derivatives, residuals
     states: tuple[str, ...]
     inputs: tuple[str, ...]
     parameters: tuple[str, ...]

@@ -3,43 +3,58 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from .archive import content_token, write_fmu
-from .c_model import TOKEN_PLACEHOLDER, print_c
-from .compile import RUNTIME, compile_library, host_platform
+from .c_model import print_c
+from .compile import compile_library, named_platforms
+from .contents import SOURCES, contents
 from .equations import derive
+from .fat_mach_o import universal
 from .frontend import flatten
+from .interface import expose
+from .ir import TOKEN_PLACEHOLDER
 from .jacobian import differentiate
-from .model_description import describe
 from .sort import sort
 
 
-def build(modelica: Path, class_name: str, output: Path) -> None:
-    """Build the FMI 2.0 Co-Simulation FMU ``output`` of ``class_name`` in the file or library folder ``modelica``.
+def build(
+    modelica: Path,
+    class_name: str,
+    output: Path,
+    fmi: int = 2,
+    platforms: Sequence[str] = ("host",),
+    progress: Callable[[str], object] = lambda _: None,
+) -> None:
+    """Build the FMU ``output`` of ``class_name`` in the file or library folder ``modelica``, for FMI version 2 or 3.
 
+    ``platforms`` are names that ``named_platforms`` takes; ``progress`` is told what takes time.
     Raises BuildError; then nothing is written.
     """
+    chosen = named_platforms(platforms)
     identifier = class_name.rpartition(".")[2]
     flat = flatten(modelica, class_name)  # FlatModel: one class, flattened
     system = derive(flat)  # EquationSystem: equations, states, relations, parameters
     model = sort(system)  # SortedModel: assignments in the order of computation
     jacobian = differentiate(model)  # JacobianModel: exact partial derivatives
     generated = print_c(model, jacobian, identifier)  # CSources: variables.h, model.c
+    interface = expose(model, identifier)  # Interface: variables in their roles, dependencies
 
-    sources = {file.name: file.read_bytes() for file in sorted(RUNTIME.glob("*.[ch]"))}
-    sources |= {name: text.encode() for name, text in generated.files.items()}
-    token = content_token({**sources, "modelDescription.xml": describe(model, identifier, TOKEN_PLACEHOLDER)})
-    sources = {name: text.replace(TOKEN_PLACEHOLDER.encode(), token.encode()) for name, text in sources.items()}
+    files = contents(flat, interface, generated, fmi)  # everything but the binaries
+    token = content_token(files).encode()
+    files = {name: content.replace(TOKEN_PLACEHOLDER.encode(), token) for name, content in files.items()}
 
-    folder, suffix = host_platform()
+    libraries: dict[str, list[bytes]] = {}  # by place in the FMU; those for macOS may share one
     with tempfile.TemporaryDirectory(prefix="fmu_build-") as work:
-        for name, text in sources.items():
-            (Path(work) / name).write_bytes(text)
-        library = Path(work) / f"{identifier}{suffix}"
-        compile_library(Path(work), library)
-        files = {
-            "modelDescription.xml": describe(model, identifier, token),
-            f"binaries/{folder}/{library.name}": library.read_bytes(),
-        }
+        for name, content in files.items():
+            if name.startswith(SOURCES):
+                (Path(work) / name.removeprefix(SOURCES)).write_bytes(content)
+        for platform in chosen:
+            progress(f"compiling for {platform.name}")
+            library = Path(work) / f"{identifier}{platform.suffix}"
+            compile_library(Path(work), library, platform)
+            folder = platform.fmi2_folder if fmi == 2 else platform.fmi3_folder
+            libraries.setdefault(f"binaries/{folder}/{library.name}", []).append(library.read_bytes())
+    files |= {place: universal(same) for place, same in libraries.items()}
     write_fmu(output, files)

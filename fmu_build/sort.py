@@ -28,7 +28,6 @@ def sort(system: EquationSystem) -> SortedModel:
         description=model.description,
         experiment=model.experiment,
         variables=variables,
-        aliases=system.aliases,
         states=system.states,
         inputs=system.inputs,
         parameters=system.parameters,
@@ -39,7 +38,11 @@ def sort(system: EquationSystem) -> SortedModel:
             if not start.is_number
         ),
         start_values={state: float(start) for state, start in system.starts.items() if start.is_number},
-        assignments=(*_assignments(list(system.equations), list(system.unknowns)), *residuals),
+        assignments=(
+            *_assignments(list(system.equations), list(system.unknowns)),
+            *residuals,
+            *_copies(system, variables),
+        ),
         relations=system.relations,
     )
 
@@ -54,6 +57,17 @@ def _with_derivatives(system: EquationSystem) -> dict[str, Variable]:
                 unknown, f"Time derivative of {of.name}", per_second(of.unit), hidden=of.hidden
             )
     return variables
+
+
+def _copies(system: EquationSystem, variables: dict[str, Variable]) -> list[Assignment]:
+    """Aliases that users see, as variables of their own: sharing a value reference is lawful, but some importers, and
+    FMPy's validation of FMI 3, expect each variable to have its own."""
+    visible = [name for name in system.aliases if variables[name].variability == "continuous"]
+    return [
+        Assignment(name, symbol(system.aliases[name]), variables[name].origin)
+        for name in visible
+        if not variables[name].hidden
+    ]
 
 
 def _residual_variable(residual: Assignment, text: str, variables: dict[str, Variable]) -> Variable:

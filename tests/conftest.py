@@ -18,7 +18,15 @@ def modelica_library() -> Path:
 
 
 @pytest.fixture(scope="session")
-def car_trailer_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    output = tmp_path_factory.mktemp("fmu") / "CarTrailer.fmu"
-    build(LIBRARY, "OverrunHitch.Systems.CarTrailer", output)
-    return output
+def car_trailer_fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[int, Path]:
+    """CarTrailer.fmu by version of FMI."""
+    folder = tmp_path_factory.mktemp("fmu")
+    fmus = {version: folder / f"fmi{version}" / "CarTrailer.fmu" for version in (2, 3)}
+    for version, output in fmus.items():
+        build(LIBRARY, "OverrunHitch.Systems.CarTrailer", output, version)
+    return fmus
+
+
+@pytest.fixture(scope="session")
+def car_trailer_fmu(car_trailer_fmus: dict[int, Path]) -> Path:
+    return car_trailer_fmus[2]

@@ -46,6 +46,7 @@ bool events_settle(Variables *v, bool holds[], Message *why)
 static bool changed_at(const Rodas *r, double fraction, Variables *v, const bool holds[], double z[])
 {
     v->time = r->time + fraction * r->length;
+    ramp_apply(r->ramp, v);
     rodas_dense(r, fraction, &v->at[FIRST_STATE]);
     return changed_relation(v, holds, z) != NO_RELATION;
 }
@@ -108,9 +109,11 @@ bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving,
     return true;
 }
 
-EventDensity events_watch(double time, double target)
+void events_watch(EventDensity *density, double time, double target)
 {
-    return (EventDensity){.span = BATCH_SHARE * (target - time), .since = time, .count = 0};
+    density->span = BATCH_SHARE * (target - time);
+    density->since = time;
+    density->count = 0;
 }
 
 bool events_too_dense(EventDensity *density, double time, const bool before[], const bool after[], Message *why)

@@ -29,7 +29,7 @@ typedef struct {
     int count;
 } EventDensity;
 
-EventDensity events_watch(double time, double target);
+void events_watch(EventDensity *density, double time, double target);
 
 /* To be called at each event, with the truths before and after it; the message names a relation. */
 bool events_too_dense(EventDensity *density, double time, const bool before[], const bool after[], Message *why);

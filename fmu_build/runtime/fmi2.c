@@ -1,15 +1,10 @@
-/* FMI 2.0 for Co-Simulation (version 2.0.5 of the standard), a thin facade over one instance. The functions of
- * capabilities that are not offered are in fmi2_not_offered.c. */
+/* FMI 2.0 (version 2.0.5 of the standard), a thin facade over one instance: functions that Model Exchange and
+ * Co-Simulation share. Those of one alone are in fmi2_model_exchange.c and fmi2_co_simulation.c. */
 #include <stdbool.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "derivatives.h"
 #include "fmi2_component.h"
-
-static fmi2Status to_fmi2(Status status)
-{
-    return status == STATUS_OK ? fmi2OK : status == STATUS_WARNING ? fmi2Warning : fmi2Error;
-}
 
 const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
 
@@ -21,18 +16,13 @@ static const char *obstacle(fmi2String name, fmi2Type type, fmi2String guid)
     if (name == NULL || name[0] == '\0') {
         return "fmi2Instantiate: the instance needs a name";
     }
-    if (type != fmi2CoSimulation) {
-        return "fmi2Instantiate: only co-simulation is offered";
+    if (type != fmi2CoSimulation && type != fmi2ModelExchange) {
+        return "fmi2Instantiate: the type must be fmi2ModelExchange or fmi2CoSimulation";
     }
     if (guid == NULL || strcmp(guid, MODEL_TOKEN) != 0) {
         return "fmi2Instantiate: the GUID is not the one of this model: modelDescription.xml and binary do not match";
     }
     return NULL;
-}
-
-static bool own_memory(const fmi2CallbackFunctions *callbacks)
-{
-    return callbacks->allocateMemory == NULL || callbacks->freeMemory == NULL;
 }
 
 fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2String fmuGUID,
@@ -52,11 +42,11 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
         return NULL;
     }
     const size_t size = sizeof(Component) + strlen(instanceName) + 1;
-    Component *component = own_memory(callbacks) ? calloc(1, size) : callbacks->allocateMemory(1, size);
+    Component *component = allocate(callbacks, size);
     if (component == NULL) {
         return NULL;
     }
-    component_create(component, instanceName, callbacks);
+    component_create(component, instanceName, fmuType == fmi2ModelExchange ? MODEL_EXCHANGE : CO_SIMULATION, callbacks);
     component->instance.logs[LOG_EVENT] = loggingOn != fmi2False;
     return component;
 }
@@ -64,13 +54,9 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
 void fmi2FreeInstance(fmi2Component c)
 {
     Component *component = c;
-    if (component == NULL) {
-        return;
-    }
-    if (own_memory(&component->callbacks)) {
-        free(component);
-    } else {
-        component->callbacks.freeMemory(component);
+    if (component != NULL) {
+        const fmi2CallbackFunctions callbacks = component->callbacks; /* they are freed with it */
+        release(&callbacks, component);
     }
 }
 
@@ -92,7 +78,7 @@ fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean loggingOn, size_t nC
         if (category == N_LOG_CATEGORIES) {
             message_write(&message, "fmi2SetDebugLogging: there is no log category %s",
                           names[i] != NULL ? names[i] : "NULL");
-            (void)report(component, fmi2Warning, &message);
+            (void)report(component, STATUS_WARNING, &message);
         }
     }
     if (nCategories == 0 || chosen[LOG_EVENT]) {
@@ -164,79 +150,18 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
     return to_fmi2(instance_set(&component->instance, vr, nvr, value));
 }
 
-fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint, fmi2Real communicationStepSize,
-                      fmi2Boolean noSetFMUStatePriorToCurrentPoint)
+fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference vUnknown_ref[], size_t nUnknown,
+                                        const fmi2ValueReference vKnown_ref[], size_t nKnown, const fmi2Real dvKnown[],
+                                        fmi2Real dvUnknown[])
 {
-    (void)noSetFMUStatePriorToCurrentPoint;
-    Component *component = legal(c, DO_STEP);
+    Component *component = legal(c, GET_DIRECTIONAL_DERIVATIVE);
     if (component == NULL) {
         return fmi2Error;
     }
-    return to_fmi2(instance_step(&component->instance, currentCommunicationPoint, communicationStepSize));
-}
-
-/* The standard's answer to a question about a status that the unit cannot tell. */
-static fmi2Status no_status(Component *component, Function function)
-{
-    Message message;
-    if (component == NULL) {
-        return fmi2Error;
+    if ((nUnknown > 0 && (vUnknown_ref == NULL || dvUnknown == NULL)) ||
+        (nKnown > 0 && (vKnown_ref == NULL || dvKnown == NULL))) {
+        return null_argument(component, GET_DIRECTIONAL_DERIVATIVE);
     }
-    message_write(&message, "%s: this status is not available", function_name(function));
-    return report(component, fmi2Discard, &message);
-}
-
-/* The last accepted integrator step counts, not the last communication step: that is as far as the values reach. */
-fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind s, fmi2Real *value)
-{
-    Component *component = legal(c, GET_REAL_STATUS);
-    if (component == NULL) {
-        return fmi2Error;
-    }
-    if (value == NULL) {
-        return null_argument(component, GET_REAL_STATUS);
-    }
-    if (s != fmi2LastSuccessfulTime) {
-        return no_status(component, GET_REAL_STATUS);
-    }
-    *value = component->instance.state.v.time;
-    return fmi2OK;
-}
-
-fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s, fmi2Boolean *value)
-{
-    Component *component = legal(c, GET_BOOLEAN_STATUS);
-    if (component == NULL) {
-        return fmi2Error;
-    }
-    if (value == NULL) {
-        return null_argument(component, GET_BOOLEAN_STATUS);
-    }
-    if (s != fmi2Terminated) {
-        return no_status(component, GET_BOOLEAN_STATUS);
-    }
-    *value = fmi2False; /* the model never asks to end the simulation */
-    return fmi2OK;
-}
-
-/* The other statuses are those of asynchronous steps, of which there are none. */
-fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind s, fmi2Status *value)
-{
-    (void)s;
-    (void)value;
-    return no_status(legal(c, GET_STATUS), GET_STATUS);
-}
-
-fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind s, fmi2Integer *value)
-{
-    (void)s;
-    (void)value;
-    return no_status(legal(c, GET_INTEGER_STATUS), GET_INTEGER_STATUS);
-}
-
-fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind s, fmi2String *value)
-{
-    (void)s;
-    (void)value;
-    return no_status(legal(c, GET_STRING_STATUS), GET_STRING_STATUS);
+    return to_fmi2(instance_directional(&component->instance, (References){vUnknown_ref, nUnknown},
+                                        (References){vKnown_ref, nKnown}, dvKnown, dvUnknown));
 }

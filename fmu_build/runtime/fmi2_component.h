@@ -35,6 +35,16 @@ typedef enum {
     GET_DIRECTIONAL_DERIVATIVE,
     SET_REAL_INPUT_DERIVATIVES,
     GET_REAL_OUTPUT_DERIVATIVES,
+    ENTER_EVENT_MODE,
+    NEW_DISCRETE_STATES,
+    ENTER_CONTINUOUS_TIME_MODE,
+    COMPLETED_INTEGRATOR_STEP,
+    SET_TIME,
+    SET_CONTINUOUS_STATES,
+    GET_DERIVATIVES,
+    GET_EVENT_INDICATORS,
+    GET_CONTINUOUS_STATES,
+    GET_NOMINALS_OF_CONTINUOUS_STATES,
     DO_STEP,
     CANCEL_STEP,
     GET_STATUS,
@@ -45,22 +55,28 @@ typedef enum {
 } Function;
 
 /* Takes note of the callbacks; *component has room for the name. */
-void component_create(Component *component, const char *name, const fmi2CallbackFunctions *callbacks);
+void component_create(Component *component, const char *name, Use use, const fmi2CallbackFunctions *callbacks);
 
 /* The component, if the call is legal in its state; otherwise NULL, and the reason is logged. */
 Component *legal(fmi2Component c, Function function);
 
 /* Each logs a message that names the function and returns fmi2Error. */
 fmi2Status null_argument(Component *component, Function function);
-fmi2Status not_offered(fmi2Component c, Function function);
+fmi2Status wrong_length(Component *component, Function function, size_t n, int needed);
+
+/* The caller's memory, or that of the C library where the caller gives none. */
+void *allocate(const fmi2CallbackFunctions *callbacks, size_t size);
+void release(const fmi2CallbackFunctions *callbacks, void *memory);
 
 /* For variables of types that the model does not have: an empty list is fine. */
 fmi2Status no_variables(fmi2Component c, Function function, size_t n);
 
+fmi2Status to_fmi2(Status status);
+
 const char *function_name(Function function);
 
 /* Log, and return the status. */
-fmi2Status report(Component *component, fmi2Status status, const Message *message);
+fmi2Status report(Component *component, Status status, const Message *message);
 
 /* The category of that name; N_LOG_CATEGORIES if there is none. */
 int category_index(fmi2String name);

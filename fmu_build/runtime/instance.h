@@ -1,38 +1,56 @@
 /* One instance of the model, in the terms of no particular FMI version. The facades translate to and from it.
  *
  * Everything that changes during a simulation is in State, which holds no pointers: a snapshot is a copy of it.
- * Every function that can fail says why through the log callback, and changes nothing if it refuses its arguments. */
+ * Every function that can fail says why through the log callback, and changes nothing if it refuses its arguments.
+ *
+ * instance.c has what every simulation needs; stepping.h is about Co-Simulation, continuous.h about event mode and
+ * Model Exchange, derivatives.h about partial derivatives, snapshot.h about saved states. */
 #ifndef INSTANCE_H
 #define INSTANCE_H
 
 #include <stddef.h>
 
+#include "events.h"
 #include "integrator.h"
 #include "message.h"
 #include "model.h"
+#include "ramp.h"
 
 /* Bits, so that a set of phases is a mask. */
 typedef enum {
     INSTANTIATED = 1,
     INITIALIZING = 2,
-    STEPPING = 4,
-    TERMINATED = 8,
-    FAILED = 16 /* a step could not be made; what is left is the last good point, for reading only, until reset */
+    STEPPING = 4,    /* Co-Simulation: at a communication point */
+    UPDATING = 8,    /* Co-Simulation: in the caller's callback between two integrator steps */
+    EVENT_MODE = 16, /* truths follow what is set */
+    CONTINUOUS = 32, /* Model Exchange: truths are held while the caller integrates */
+    TERMINATED = 64,
+    FAILED = 128 /* a step could not be made; what is left is the last good point, for reading only, until reset */
 } Phase;
 
-typedef enum { STATUS_OK, STATUS_WARNING, STATUS_ERROR } Status;
+typedef enum { CO_SIMULATION, CO_SIMULATION_WITH_EVENTS, MODEL_EXCHANGE } Use;
+
+/* DISCARD: the model cannot be evaluated there; the caller may try another point. */
+typedef enum { STATUS_OK, STATUS_WARNING, STATUS_DISCARD, STATUS_ERROR } Status;
 
 typedef enum { LOG_ERROR, LOG_WARNING, LOG_EVENT, N_LOG_CATEGORIES } LogCategory;
 
-typedef void LogFunction(void *receiver, LogCategory category, const char *message);
+typedef void LogFunction(void *receiver, LogCategory category, Status status, const char *message);
 
 typedef struct {
+    Use use;
     Phase phase;
-    bool current; /* all of v, and holds, follow from what has been set */
+    bool settled; /* parameters, start values and holds follow from what has been set */
+    bool current; /* and so do all of v */
     double tolerance;
     double stop; /* INFINITY: not given */
     Variables v;
     bool holds[AT_LEAST_ONE(N_RELATIONS)];
+    bool event_waits; /* the last step has ended at an event, which the caller has still to handle */
+    bool after_event; /* the last step has ended so */
+    bool next_holds[AT_LEAST_ONE(N_RELATIONS)]; /* the truths behind it; otherwise those that are held */
+    EventDensity density;
+    Ramp ramp;
     Integrator integrator;
 } State;
 
@@ -45,7 +63,7 @@ typedef struct {
 } Instance;
 
 /* Fills in *instance; errors and warnings are logged, events are not. */
-void instance_create(Instance *instance, LogFunction *log, void *receiver);
+void instance_create(Instance *instance, Use use, LogFunction *log, void *receiver);
 
 /* Back to where instance_create left it, but for the log. */
 void instance_reset(Instance *instance);
@@ -60,9 +78,19 @@ Status instance_terminate(Instance *instance);
 Status instance_get(Instance *instance, const unsigned references[], size_t n, double values[]);
 Status instance_set(Instance *instance, const unsigned references[], size_t n, const double values[]);
 
-/* Integrate from the communication point `time`, where the instance must be, to time + size. */
-Status instance_step(Instance *instance, double time, double size);
+/* For the other files of the runtime. */
 
-void instance_log(const Instance *instance, LogCategory category, const Message *message);
+/* Calculate what depends on what has been set: the truths, or all variables. False: why. */
+bool instance_settle(Instance *instance, Message *why);
+bool instance_update(Instance *instance, Message *why);
+
+/* Values in v->at[first], ... to the caller; discarded if one of them is not finite. */
+Status instance_copy(const Instance *instance, int first, int n, double values[]);
+
+void instance_log(const Instance *instance, LogCategory category, Status status, const Message *message);
+
+/* Log, and return STATUS_ERROR or STATUS_DISCARD. */
+Status instance_refuse(const Instance *instance, const Message *why);
+Status instance_discard(const Instance *instance, const Message *why);
 
 #endif

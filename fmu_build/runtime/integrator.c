@@ -16,6 +16,9 @@ static const double TELLING_ERROR = 1e-3;
 /* A step may be stretched so much to end where it should. */
 static const double STRETCH = 1.05;
 
+/* At time zero nothing else would limit how short a step may be; its inverse has to be finite. */
+static const double SHORTEST = DBL_MIN / DBL_EPSILON;
+
 /* Behind an event, or a jump of an input, the length learned before it may be far too long. Start again with this part
  * of a first step, which by itself overlooks the transients that a kink excites. (On a car/trailer at 1e-6 that takes
  * nine rejections in ten away and adds one step in fifty.) */
@@ -182,16 +185,18 @@ static bool arrive_at_event(Integrator *m, Workspace *w, const Event *event, dou
     m->counters.steps++;
     arrival->time = fmin(target, fmax(r->time + event->fraction * r->length, nextafter(r->time, target)));
     w->v.time = arrival->time;
+    ramp_apply(r->ramp, &w->v);
     memcpy(&w->v.at[FIRST_STATE], arrival->state, N_STATES * sizeof(double));
     return events_settle(&w->v, arrival->holds, why);
 }
 
-static bool start(Integrator *m, Workspace *w, const Variables *v, const bool holds[], double tolerance, Message *why)
+static bool start(Integrator *m, Workspace *w, const Variables *v, const bool holds[], const Ramp *ramp,
+                  double tolerance, Message *why)
 {
     w->v = *v;
     m->counters.evaluations++;
     m->counters.jacobians++;
-    const int not_finite = rodas_start(&w->rodas, &w->v, holds);
+    const int not_finite = rodas_start(&w->rodas, &w->v, holds, ramp);
     if (not_finite != FINITE) {
         return explain_start(&w->rodas, not_finite, why);
     }
@@ -204,16 +209,16 @@ static bool start(Integrator *m, Workspace *w, const Variables *v, const bool ho
     return true;
 }
 
-bool integrator_step(Integrator *m, Workspace *w, const Variables *v, const bool holds[], double target,
-                     double tolerance, Point *arrival, Message *why)
+bool integrator_step(Integrator *m, Workspace *w, const Variables *v, const bool holds[], const Ramp *ramp,
+                     double target, double tolerance, Point *arrival, Message *why)
 {
-    if (!start(m, w, v, holds, tolerance, why)) {
+    if (!start(m, w, v, holds, ramp, tolerance, why)) {
         return false;
     }
     const double remaining = target - v->time;
     const bool leaving = !(m->has_left_surface && m->left_surface == v->time);
     double length = fit(m->length, remaining);
-    const double shortest = 4.0 * DBL_EPSILON * fmax(fabs(v->time), length);
+    const double shortest = fmax(SHORTEST, 4.0 * DBL_EPSILON * fmax(fabs(v->time), length));
     double error = 0.0;
     bool rejected = false;
     bool found = false;
@@ -221,6 +226,9 @@ bool integrator_step(Integrator *m, Workspace *w, const Variables *v, const bool
     for (int repeat = 0;; repeat++) {
         if (!accept(m, w, holds, &length, tolerance, &rejected, shortest, &error, why)) {
             return false;
+        }
+        if (N_RELATIONS > 0) {
+            rodas_bend(&w->rodas);
         }
         found = events_find(&w->rodas, &w->v, holds, leaving, &event);
         if (!found || event.fraction < NEAR_START || event.fraction > NEAR_END || repeat == MAX_REPEATS) {

@@ -44,9 +44,10 @@ typedef struct {
 /* Something has changed at once (an input, a parameter, a truth): what was learned about the error may not hold. */
 void integrator_discontinuity(Integrator *m);
 
-/* One accepted step from the point in v, at most to target, at most to the next event. False: no step can be made. */
-bool integrator_step(Integrator *m, Workspace *w, const Variables *v, const bool holds[], double target,
-                     double tolerance, Point *arrival, Message *why);
+/* One accepted step from the point in v, at most to target, at most to the next event; the ramp moves the inputs.
+ * False: no step can be made. */
+bool integrator_step(Integrator *m, Workspace *w, const Variables *v, const bool holds[], const Ramp *ramp,
+                     double target, double tolerance, Point *arrival, Message *why);
 
 /* The error of a state's value that the tolerance allows. */
 double integrator_allowed_error(int state, double value, double tolerance);

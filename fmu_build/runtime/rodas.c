@@ -3,13 +3,15 @@
 #include <math.h>
 #include <string.h>
 
-#include "lu.h"
-
-typedef double Stages[RODAS_STAGES][AT_LEAST_ONE(N_STATES)];
+#include "inverse.h"
 
 static int first_not_finite(const double a[])
 {
+    double zero = 0.0; /* unless something is not finite */
     for (int i = 0; i < N_STATES; i++) {
+        zero += 0.0 * a[i];
+    }
+    for (int i = 0; i < N_STATES && zero != 0.0; i++) {
         if (!isfinite(a[i])) {
             return i;
         }
@@ -17,17 +19,27 @@ static int first_not_finite(const double a[])
     return FINITE;
 }
 
-int rodas_start(Rodas *r, Variables *v, const bool holds[])
+/* With inputs that move, the derivatives change in time also through them. */
+static void add_moving_inputs(Rodas *r, const Variables *v, const bool holds[])
 {
+    Variables d = {.at = {0.0}};
+    d.time = 1.0;
+    memcpy(&d.at[FIRST_INPUT], r->ramp->slope, N_INPUTS * sizeof(double));
+    model_tangent(v, holds, false, &d);
+    memcpy(r->time_derivative, &d.at[FIRST_DERIVATIVE], N_STATES * sizeof(double));
+}
+
+int rodas_start(Rodas *r, Variables *v, const bool holds[], const Ramp *ramp)
+{
+    r->ramp = ramp;
     r->time = v->time;
-    for (int i = 0; i < N_STATES; i++) {
-        r->state[i] = v->at[FIRST_STATE + i];
-    }
+    memcpy(r->state, &v->at[FIRST_STATE], N_STATES * sizeof(double));
     model_derivatives(v, holds);
-    for (int i = 0; i < N_STATES; i++) {
-        r->derivative[i] = v->at[FIRST_DERIVATIVE + i];
-    }
+    memcpy(r->derivative, &v->at[FIRST_DERIVATIVE], N_STATES * sizeof(double));
     model_jacobian(v, holds, r->jacobian, r->time_derivative);
+    if (ramp->moves) {
+        add_moving_inputs(r, v, holds);
+    }
     const int bad = first_not_finite(r->derivative);
     if (bad != FINITE) {
         return bad;
@@ -44,84 +56,97 @@ int rodas_start(Rodas *r, Variables *v, const bool holds[])
     return FINITE;
 }
 
-/* sum = sum over the stages before `stage` of weight[j] u[j] */
-static void combine(double sum[], const double weight[], double u[][AT_LEAST_ONE(N_STATES)], int stages)
+/* sum = sum over the stages before `stages` of weight[j] u[j] */
+static void combine(double *restrict sum, const double *restrict weight, Vector u[restrict], int stages)
 {
-    for (int i = 0; i < N_STATES; i++) {
-        sum[i] = 0.0;
-    }
+    Vector total = {0.0};
     for (int j = 0; j < stages; j++) {
         for (int i = 0; i < N_STATES; i++) {
-            sum[i] += weight[j] * u[j][i];
+            total[i] += weight[j] * u[j][i];
         }
     }
+    memcpy(sum, total, N_STATES * sizeof(double));
 }
 
-/* f at a stage's argument, into the derivatives in v */
-static int stage_derivative(const Rodas *r, int stage, double u[][AT_LEAST_ONE(N_STATES)], Variables *v,
-                            const bool holds[])
+/* f at a stage's argument, into the derivatives in v. Each of the last arguments is the one before and one more u. */
+static int stage_derivative(Rodas *r, int stage, Variables *v, const bool holds[])
 {
-    double increment[AT_LEAST_ONE(N_STATES)];
-    combine(increment, RODAS_A[stage], u, stage);
+    double *restrict argument = &v->at[FIRST_STATE];
+    Vector increment;
+    if (stage <= RODAS_STAGES - 3) {
+        combine(increment, RODAS_A[stage], r->u, stage);
+        for (int i = 0; i < N_STATES; i++) {
+            argument[i] = r->state[i] + increment[i];
+        }
+    } else {
+        for (int i = 0; i < N_STATES; i++) {
+            argument[i] += r->u[stage - 1][i];
+        }
+    }
     v->time = r->time + RODAS_NODE[stage] * r->length;
-    for (int i = 0; i < N_STATES; i++) {
-        v->at[FIRST_STATE + i] = r->state[i] + increment[i];
+    if (r->ramp->moves) {
+        ramp_apply(r->ramp, v);
     }
     if (stage == 0) {
         memcpy(&v->at[FIRST_DERIVATIVE], r->derivative, N_STATES * sizeof(double));
-    } else {
-        model_derivatives(v, holds);
+        return FINITE;
     }
+    model_derivatives(v, holds);
     return first_not_finite(&v->at[FIRST_DERIVATIVE]);
 }
 
-static bool factor_matrix(const Rodas *r, double lu[], int pivot[])
+/* The inverse of I / (gamma h) - J. It is kept column by column, J row by row. */
+static bool invert_matrix(const Rodas *r, double inverse[])
 {
-    for (int i = 0; i < N_STATES * N_STATES; i++) {
-        lu[i] = -r->jacobian[i];
-    }
     for (int i = 0; i < N_STATES; i++) {
-        lu[i * N_STATES + i] += 1.0 / (RODAS_GAMMA * r->length);
+        for (int j = 0; j < N_STATES; j++) {
+            inverse[j * N_STATES + i] = -r->jacobian[i * N_STATES + j];
+        }
+        inverse[i * N_STATES + i] += 1.0 / (RODAS_GAMMA * r->length);
     }
-    return lu_factor(lu, pivot);
+    return inverse_make(inverse);
 }
 
 int rodas_try(Rodas *r, double length, Variables *v, const bool holds[])
 {
-    Stages u;
-    double lu[AT_LEAST_ONE(N_STATES * N_STATES)];
-    int pivot[AT_LEAST_ONE(N_STATES)];
+    double inverse[AT_LEAST_ONE(N_STATES * N_STATES)];
+    Vector right;
     r->length = length;
-    if (!factor_matrix(r, lu, pivot)) {
+    if (!invert_matrix(r, inverse)) {
         return 0;
     }
+    const double per_length = 1.0 / length;
     for (int stage = 0; stage < RODAS_STAGES; stage++) {
-        const int bad = stage_derivative(r, stage, u, v, holds);
+        const double weight = RODAS_D[stage] * length;
+        const int bad = stage_derivative(r, stage, v, holds);
         if (bad != FINITE) {
             return bad;
         }
-        combine(u[stage], RODAS_C[stage], u, stage);
+        combine(right, RODAS_C[stage], r->u, stage);
         for (int i = 0; i < N_STATES; i++) {
-            u[stage][i] =
-                v->at[FIRST_DERIVATIVE + i] + u[stage][i] / length + RODAS_D[stage] * length * r->time_derivative[i];
+            right[i] = v->at[FIRST_DERIVATIVE + i] + right[i] * per_length + weight * r->time_derivative[i];
         }
-        lu_solve(lu, pivot, u[stage]);
+        inverse_apply(inverse, right, r->u[stage]);
     }
     for (int i = 0; i < N_STATES; i++) { /* v still holds the argument of the last stage, the embedded solution */
-        r->error[i] = u[RODAS_STAGES - 1][i];
+        r->error[i] = r->u[RODAS_STAGES - 1][i];
         r->end[i] = v->at[FIRST_STATE + i] + r->error[i];
     }
-    for (int l = 0; l < RODAS_DENSE; l++) {
-        combine(r->dense[l], RODAS_BEND[l], u, RODAS_STAGES);
-    }
     return first_not_finite(r->end);
+}
+
+void rodas_bend(Rodas *r)
+{
+    for (int l = 0; l < RODAS_DENSE; l++) {
+        combine(r->bend[l], RODAS_BEND[l], r->u, RODAS_STAGES);
+    }
 }
 
 void rodas_dense(const Rodas *r, double fraction, double state[])
 {
     const double s = fraction;
     for (int i = 0; i < N_STATES; i++) {
-        const double bend = r->dense[0][i] + s * (r->dense[1][i] + s * r->dense[2][i]);
+        const double bend = r->bend[0][i] + s * (r->bend[1][i] + s * r->bend[2][i]);
         /* written as an increment, so that a short way from the start loses nothing to rounding */
         state[i] = s < 1.0 ? r->state[i] + s * (r->end[i] - r->state[i] + (1.0 - s) * bend) : r->end[i];
     }

@@ -3,30 +3,38 @@
 #define RODAS_H
 
 #include "model.h"
+#include "ramp.h"
 #include "rodas5p.h"
+
+typedef double Vector[AT_LEAST_ONE(N_STATES)];
 
 typedef struct {
     /* Where the step starts */
+    const Ramp *ramp;
     double time;
-    double state[AT_LEAST_ONE(N_STATES)];
-    double derivative[AT_LEAST_ONE(N_STATES)];
+    Vector state;
+    Vector derivative;
     double jacobian[AT_LEAST_ONE(N_STATES * N_STATES)];
-    double time_derivative[AT_LEAST_ONE(N_STATES)];
+    Vector time_derivative;
     /* What the last trial of a length gave */
     double length;
-    double end[AT_LEAST_ONE(N_STATES)];   /* state at time + length */
-    double error[AT_LEAST_ONE(N_STATES)]; /* its estimated error */
-    double dense[RODAS_DENSE][AT_LEAST_ONE(N_STATES)];
+    Vector end;   /* state at time + length */
+    Vector error; /* its estimated error */
+    Vector u[RODAS_STAGES];
+    Vector bend[RODAS_DENSE]; /* after rodas_bend */
 } Rodas;
 
 enum { FINITE = -1 }; /* otherwise: the index of the first state whose derivative, or whose value, is not finite */
 
 /* Fix the start of a step at the time and the states in v: evaluates the derivatives and the Jacobian there, once for
- * all trials of the step. Returns FINITE or an index. */
-int rodas_start(Rodas *r, Variables *v, const bool holds[]);
+ * all trials of the step. The ramp, which moves the inputs, has to live as long. Returns FINITE or an index. */
+int rodas_start(Rodas *r, Variables *v, const bool holds[], const Ramp *ramp);
 
 /* Try a length. v serves as working space (its inputs and parameters are read). Returns FINITE or an index. */
 int rodas_try(Rodas *r, double length, Variables *v, const bool holds[]);
+
+/* Prepare rodas_dense for the last trial. */
+void rodas_bend(Rodas *r);
 
 /* The states at time + fraction * length of the last trial, 0 <= fraction <= 1. */
 void rodas_dense(const Rodas *r, double fraction, double state[]);

@@ -7,6 +7,8 @@ static const double TIGHTEST_TOLERANCE = 1e-12;
 
 /* Callers sum up their communication points in various ways: equal times may differ by this much, relatively. */
 static const double SAME_TIME = 1e-9;
+/* And so may inputs that are extrapolated. */
+static const double ROUNDING = 1e-9;
 
 bool valid_reference(unsigned reference, Message *why)
 {
@@ -20,16 +22,20 @@ bool valid_reference(unsigned reference, Message *why)
 /* NULL if a variable may be set in the phase, otherwise why not. */
 static const char *why_not_set(VariableKind kind, Phase phase)
 {
+    const bool before_start = phase == INSTANTIATED || phase == INITIALIZING;
     switch (kind) {
     case INPUT:
-    case PARAMETER:
         return NULL;
+    case PARAMETER:
+        return phase == CONTINUOUS ? "it is a parameter, which can be set in event mode but not between events" : NULL;
     case STATE:
-        return phase == STEPPING ? "it is a state, which can be set before and during initialization only" : NULL;
+        return before_start || phase == CONTINUOUS
+                   ? NULL
+                   : "it is a state, which can be set before and during initialization only";
     case FIXED_PARAMETER:
-        return phase == STEPPING ? "it is a parameter that only start values depend on" : NULL;
+        return before_start ? NULL : "it is a parameter that only start values depend on";
     case STATE_CALCULATED:
-        return "it is a state whose start value follows from parameters";
+        return phase == CONTINUOUS ? NULL : "it is a state whose start value follows from parameters";
     case TIME:
         return "it is the time";
     case DERIVATIVE:
@@ -56,6 +62,31 @@ bool valid_value(unsigned reference, double value, Phase phase, Message *why)
     }
     message_write(why, "%s = %s is not allowed: its range is %s to %s", info->name, quantity(value, info->unit).text,
                   quantity(info->min, info->unit).text, quantity(info->max, info->unit).text);
+    return false;
+}
+
+bool valid_slope(unsigned reference, double slope, Message *why)
+{
+    if (!valid_reference(reference, why)) {
+        return false;
+    }
+    const VariableInfo *info = &variable_info[reference];
+    if (info->kind != INPUT || !isfinite(slope)) {
+        message_write(why, "the time derivative of %s cannot be set to %s: %s", info->name, quantity(slope, "").text,
+                      info->kind != INPUT ? "it is no input" : "it must be finite");
+        return false;
+    }
+    return true;
+}
+
+bool valid_result(unsigned reference, double value, double time, Message *why)
+{
+    if (isfinite(value)) {
+        return true;
+    }
+    const VariableInfo *info = &variable_info[reference];
+    message_write(why, "%s = %s is not finite at t = %s", info->name, quantity(value, info->unit).text,
+                  quantity(time, "s").text);
     return false;
 }
 
@@ -90,11 +121,33 @@ bool valid_step(const State *s, double time, double size, Message *why)
                       quantity(time, "s").text, quantity(s->v.time, "s").text);
         return false;
     }
+    if (s->event_waits) {
+        message_write(why, "no step can be made from t = %s: there is an event, which event mode has to handle first",
+                      quantity(s->v.time, "s").text);
+        return false;
+    }
     /* Fixed-step callers run over their stop time by up to half a step. */
     if (time + size > s->stop + 0.5 * size) {
         message_write(why, "a step from %s to %s is not allowed: the stop time is %s", quantity(time, "s").text,
                       quantity(time + size, "s").text, quantity(s->stop, "s").text);
         return false;
+    }
+    return true;
+}
+
+bool valid_ramp(const State *s, double end, Message *why)
+{
+    for (int i = 0; i < N_INPUTS && !s->ramp.over; i++) {
+        const VariableInfo *info = &variable_info[FIRST_INPUT + i];
+        const double start = s->v.at[FIRST_INPUT + i];
+        const double value = start + s->ramp.slope[i] * (end - s->v.time);
+        const double slack = ROUNDING * fmax(info->nominal, fmax(fabs(start), fabs(value)));
+        if (!(value >= info->min - slack && value <= info->max + slack) || !isfinite(value)) {
+            message_write(why, "%s would be %s at the end of the step: its range is %s to %s", info->name,
+                          quantity(value, info->unit).text, quantity(info->min, info->unit).text,
+                          quantity(info->max, info->unit).text);
+            return false;
+        }
     }
     return true;
 }
@@ -120,9 +173,7 @@ bool valid_variables(const Variables *v, Message *why)
 {
     for (int i = 0; i < N_VARIABLES; i++) {
         if (!isfinite(v->at[i])) {
-            message_write(why, "%s = %s is not finite at t = %s", variable_info[i].name,
-                          quantity(v->at[i], variable_info[i].unit).text, quantity(v->time, "s").text);
-            return false;
+            return valid_result((unsigned)i, v->at[i], v->time, why);
         }
     }
     return true;

@@ -7,8 +7,13 @@
 /* Each returns false with a message that names what is wrong. */
 bool valid_reference(unsigned reference, Message *why);
 bool valid_value(unsigned reference, double value, Phase phase, Message *why);
+bool valid_slope(unsigned reference, double slope, Message *why);
+bool valid_result(unsigned reference, double value, double time, Message *why);
 bool valid_experiment(const double *tolerance, double start, const double *stop, Message *why);
 bool valid_step(const State *s, double time, double size, Message *why);
+
+/* Every input with a slope still inside its range at the end of the step, but for rounding. */
+bool valid_ramp(const State *s, double end, Message *why);
 
 /* Every state inside its range, but for the error that the tolerance allows. */
 bool valid_states(const Point *p, double tolerance, Message *why);

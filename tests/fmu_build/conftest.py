@@ -62,10 +62,10 @@ class CompiledModel:
         getattr(self._library, function)(*(ctypes.c_void_p(a.ctypes.data) for a in (self.at, *arrays)))
 
     def __getitem__(self, name: str) -> float:
-        return float(self.at[self.references[self.model.aliases.get(name, name)]])
+        return float(self.at[self.references[name]])
 
     def __setitem__(self, name: str, value: float) -> None:
-        self.at[self.references[self.model.aliases.get(name, name)]] = value
+        self.at[self.references[name]] = value
 
     def relations(self) -> np.ndarray:
         """Residuals of the relations at the present values."""

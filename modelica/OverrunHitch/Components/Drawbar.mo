@@ -6,7 +6,7 @@ model Drawbar "Sliding drawbar with damper, clearance and its own stiffness in t
   parameter Units.Length eps(min=0) = 0 "Clearance (backlash)";
   Interfaces.Flange front "Joined to the car" annotation(Placement(transformation(extent={{90,-10},{110,10}})));
   Interfaces.Flange rear "Joined to the trailer" annotation(Placement(transformation(extent={{-110,-10},{-90,10}})));
-  Interfaces.LengthOutput compression "Drawbar compression = rear.s - front.s" annotation(Placement(transformation(extent={{-10,-110},{10,-90}}, rotation=-90)));
+  Interfaces.LengthOutput compression(stateSelect=StateSelect.prefer, nominal=0.1) "Drawbar compression = rear.s - front.s" annotation(Placement(transformation(extent={{-10,-110},{10,-90}}, rotation=-90)));
   Units.Velocity v_rel "Rate of compression";
   Units.Force F_spring "Force of the springs, positive in compression";
   Units.Force F_h "Hitch force, positive in tension";
@@ -31,6 +31,8 @@ equation
 compression, within the clearance there is no spring force, in tension the drawbar has the stiffness <code>k_t</code>.
 The damper acts in all three. The force is continuous in the compression; its slope jumps at 0 and at
 <code>eps</code>.</p>
+<p>The compression is preferred as a state to the position of one of the vehicles: positions grow without limit, and a
+relative tolerance on them says little about their difference.</p>
 <p>An always acting damper can pull while the drawbar springs back from compression; the paper's does, and so does
 this one.</p>
 </html>"));

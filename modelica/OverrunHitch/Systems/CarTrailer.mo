@@ -47,6 +47,21 @@ equation
     Documentation(info="<html>
 <p>Sharp's car and trailer: equations 1 to 8 of the paper, with the drawbar of section 6. Defaults are those of figure 8
 (case ii, C = 500 N.s/m, no clearance), a combination that does not shunt by itself.</p>
-<p>Limits: forward driving above 0.1 m/s, slip up to about 0.1, level road, brakes without friction characteristics.</p>
+<h2>Signs</h2>
+<p>Positions, speeds and accelerations are positive forward, so braking gives negative accelerations.
+<code>compression</code> is <code>x_t - x_c</code>, positive when the drawbar is pushed in. <code>F_hitch</code> is the
+force on the car, positive forward: a pushing trailer gives a positive value; it is minus the paper's F_h, which is
+positive in tension. Slips and brake torques are positive when they brake a vehicle that rolls forward.</p>
+<h2>Parameters</h2>
+<p>Masses, inertias, radii and tyre stiffnesses are the datum of the paper's section 7; <code>k</code> and <code>r</code>
+those of its case ii (section 8.1); <code>k_t = 100 k</code> that of figures 6a and 7 to 11. <code>V_0</code> and
+<code>compression_start</code> count at the start, the others may be changed during a run.</p>
+<h2>Limits</h2>
+<p>Forward driving above 0.1 m/s (the tyre law divides by the speed), slip up to about 0.1, level road, no drag, brakes
+that are torques and not friction, a drawbar damper that always acts.</p>
+<h2>Source</h2>
+<p>R. S. Sharp, <em>Longitudinal Oscillations of Vehicle/Trailer Combinations Induced by Overrun Braking</em>, Vehicle
+System Dynamics 11:1 (1982) 43-61, <a href=\"https://doi.org/10.1080/00423118208968687\">doi
+10.1080/00423118208968687</a>.</p>
 </html>"));
 end CarTrailer;

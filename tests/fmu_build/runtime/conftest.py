@@ -5,19 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import pytest
+from runtime_fmi3 import Unit3
 from runtime_models import Model
 from runtime_unit import Library, Unit, compile_model
 
 
 @pytest.fixture(scope="session")
-def library(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Model], Library]:
-    """Each model is compiled once a session."""
-    compiled: dict[str, Library] = {}
+def library(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Library]:
+    """Each model is compiled once a session and facade."""
+    compiled: dict[tuple[str, int], Library] = {}
 
-    def get(model: Model) -> Library:
-        if model.name not in compiled:
-            compiled[model.name] = compile_model(model, tmp_path_factory.mktemp(model.name))
-        return compiled[model.name]
+    def get(model: Model, fmi: int = 2) -> Library:
+        key = model.name, fmi
+        if key not in compiled:
+            compiled[key] = compile_model(model, tmp_path_factory.mktemp(model.name), fmi)
+        return compiled[key]
 
     return get
 
@@ -29,6 +31,20 @@ def unit(library: Callable[[Model], Library]) -> Iterator[Callable[..., Unit]]:
 
     def create(model: Model, **options: object) -> Unit:
         units.append(Unit(library(model), **options))  # type: ignore[arg-type]
+        return units[-1]
+
+    yield create
+    for u in units:
+        u.free()
+
+
+@pytest.fixture
+def unit3(library: Callable[..., Library]) -> Iterator[Callable[..., Unit3]]:
+    """Instances of FMI 3.0, freed at the end of the test."""
+    units: list[Unit3] = []
+
+    def create(model: Model, **options: object) -> Unit3:
+        units.append(Unit3(library(model, 3), **options))  # type: ignore[arg-type]
         return units[-1]
 
     yield create

@@ -53,15 +53,17 @@ void probe_fixed_steps(double start, double end, int steps, double x[], double f
     Variables v;
     Rodas r;
     const bool holds[AT_LEAST_ONE(N_RELATIONS)] = {false};
+    const Ramp ramp = {.moves = false};
     for (int i = 0; i < N_VARIABLES; i++) {
         v.at[i] = variable_info[i].start;
     }
     for (int step = 0; step < steps; step++) {
         v.time = start + (end - start) * step / steps;
-        (void)rodas_start(&r, &v, holds);
+        (void)rodas_start(&r, &v, holds, &ramp);
         (void)rodas_try(&r, (end - start) / steps, &v, holds);
         memcpy(&v.at[FIRST_STATE], r.end, N_STATES * sizeof(double));
     }
+    rodas_bend(&r);
     rodas_dense(&r, fraction, dense);
     memcpy(x, r.end, N_STATES * sizeof(double));
     for (int i = 0; i < N_STATES; i++) {

@@ -24,6 +24,7 @@ class Model:
     """C statements read and write `v->name`; `holds`, `z`, `jacobian` and `time_derivative` as in model.h.
 
     A jacobian is given as the entries that are not zero: {(row, column): expression}; column -1 is the time.
+    Tangents and adjoints are made of central differences: enough where they are not what is tested.
     """
 
     name: str
@@ -52,6 +53,7 @@ class Model:
             *kind(self.parameters, "PARAMETER"),
             *kind(self.calculated, "CALCULATED_PARAMETER"),
             *kind(self.others, "OTHER"),
+            *[Variable(f"residual_{i}", kind="OTHER") for i in range(len(self.relations))],
         ]
 
     def references(self) -> dict[str, int]:
@@ -89,13 +91,15 @@ typedef union {{
             f"    time_derivative[{i}] = {e};" if j < 0 else f"    jacobian[{i * n + j}] = {e};"
             for (i, j), e in self.jacobian.items()
         )
-        residuals = "\n".join(f"    z[{i}] = {e};" for i, (_, e) in enumerate(self.relations))
+        residuals = "\n".join(f"    z[{i}] = v->residual_{i} = {e};" for i, (_, e) in enumerate(self.relations))
+        references = ", ".join(str(self.references()[f"residual_{i}"]) for i in range(len(self.relations))) or "0"
         return f"""#include <math.h>
 #include "model.h"
 const VariableInfo variable_info[N_VARIABLES] = {{
 {rows}
 }};
 const char *const relation_text[AT_LEAST_ONE(N_RELATIONS)] = {{{texts}}};
+const unsigned relation_reference[AT_LEAST_ONE(N_RELATIONS)] = {{{references}}};
 void model_parameters(Variables *v) {{
     (void)v;
     {self.parameter_equations}
@@ -110,7 +114,9 @@ void model_derivatives(Variables *v, const bool holds[]) {{
     {self.derivatives}
 }}
 void model_outputs(Variables *v, const bool holds[]) {{
+    double z[AT_LEAST_ONE(N_RELATIONS)];
     model_derivatives(v, holds);
+    model_relations(v, holds, z);
     {self.outputs}
 }}
 void model_jacobian(Variables *v, const bool holds[], double jacobian[], double time_derivative[]) {{
@@ -130,6 +136,44 @@ void model_relations(Variables *v, const bool holds[], double z[]) {{
     (void)z;
 {residuals}
 }}
+{DIFFERENCES}"""
+
+
+DIFFERENCES = """
+static bool is_known(int i, bool at_start) {
+    const VariableKind kind = variable_info[i].kind;
+    return kind == TIME || kind == STATE || kind == INPUT || kind == PARAMETER || kind == FIXED_PARAMETER
+        || (kind == STATE_CALCULATED && !at_start);
+}
+static Variables moved(const Variables *v, const bool holds[], bool at_start, const Variables *d, double way) {
+    Variables w = *v;
+    for (int i = 0; i < N_VARIABLES; i++) {
+        if (is_known(i, at_start)) w.at[i] += way * d->at[i];
+    }
+    model_parameters(&w);
+    if (at_start) model_start(&w);
+    model_outputs(&w, holds);
+    return w;
+}
+void model_tangent(const Variables *v, const bool holds[], bool at_start, Variables *d) {
+    const double way = 1e-6;
+    const Variables up = moved(v, holds, at_start, d, way);
+    const Variables down = moved(v, holds, at_start, d, -way);
+    for (int i = 0; i < N_VARIABLES; i++) {
+        if (!is_known(i, at_start)) d->at[i] = (up.at[i] - down.at[i]) / (2.0 * way);
+    }
+}
+void model_adjoint(const Variables *v, const bool holds[], bool at_start, Variables *d) {
+    for (int i = 0; i < N_VARIABLES; i++) {
+        Variables e = {.at = {0.0}};
+        e.at[i] = 1.0;
+        if (!is_known(i, at_start)) continue;
+        model_tangent(v, holds, at_start, &e);
+        for (int j = 0; j < N_VARIABLES; j++) {
+            if (!is_known(j, at_start)) d->at[i] += e.at[j] * d->at[j];
+        }
+    }
+}
 """
 
 
@@ -332,4 +376,23 @@ NO_STATES = Model(
     others=(Variable("y", unit="N"),),
     outputs="v->y = holds[0] ? 2.0 * v->u : v->u;",
     relations=(("time > 0.255", "v->time - 0.255"),),
+)
+
+LAG = Model(
+    "Lag",
+    (Variable("x"),),
+    "v->der_x = v->u - v->x;",
+    {(0, 0): "-1.0"},
+    inputs=(Variable("u", 0.0, "N", -100.0, 100.0),),
+)
+
+# A relation of the input alone.
+THRESHOLD = Model(
+    "Threshold",
+    (Variable("x"),),
+    "v->der_x = holds[0] ? 1.0 : 0.0;",
+    {},
+    inputs=(Variable("u"),),
+    parameters=(Variable("limit", 1.0),),
+    relations=(("u < limit", "v->limit - v->u"),),
 )

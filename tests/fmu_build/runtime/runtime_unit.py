@@ -59,7 +59,15 @@ class Counters:
 class Unit:
     """An instance. Its methods return the FMI status; `log` collects (category, message)."""
 
-    def __init__(self, library: Library, *, logging: bool = False, name: bytes = b"unit", token: str = TOKEN) -> None:
+    def __init__(
+        self,
+        library: Library,
+        *,
+        logging: bool = False,
+        name: bytes = b"unit",
+        token: str = TOKEN,
+        exchange: bool = False,
+    ) -> None:
         self.library = library
         self.dll = library.dll
         self.references = library.model.references()
@@ -72,7 +80,7 @@ class Unit:
 
         self.callbacks = Callbacks(LOGGER(log))
         self.component = self.dll.fmi2Instantiate(
-            name, 1, token.encode(), None, ct.byref(self.callbacks), 0, int(logging)
+            name, 0 if exchange else 1, token.encode(), None, ct.byref(self.callbacks), 0, int(logging)
         )
 
     def call(self, function: str, *arguments: object) -> int:
@@ -113,6 +121,60 @@ class Unit:
         status, values = self.get_status(*names)
         assert status == OK, self.log
         return values
+
+    def directional(self, unknown: list[str], known: list[str], seed: np.ndarray) -> tuple[int, np.ndarray]:
+        to, of = ((ct.c_uint * len(names))(*[self.references[n] for n in names]) for names in (unknown, known))
+        result = (ct.c_double * len(unknown))()
+        sizes = [ct.c_size_t(len(names)) for names in (unknown, known)]
+        status = self.call(
+            "fmi2GetDirectionalDerivative", to, sizes[0], of, sizes[1], (ct.c_double * len(known))(*seed), result
+        )
+        return status, np.array(result)
+
+    def slopes(self, order: int = 1, **values: float) -> int:
+        n = len(values)
+        return self.call(
+            "fmi2SetRealInputDerivatives",
+            (ct.c_uint * n)(*[self.references[name] for name in values]),
+            ct.c_size_t(n),
+            (ct.c_int * n)(*[order] * n),
+            (ct.c_double * n)(*values.values()),
+        )
+
+    def output_slopes(self, *names: str, order: int = 1) -> tuple[int, np.ndarray]:
+        n = len(names)
+        values = (ct.c_double * n)()
+        references = (ct.c_uint * n)(*[self.references[name] for name in names])
+        orders = (ct.c_int * n)(*[order] * n)
+        status = self.call("fmi2GetRealOutputDerivatives", references, ct.c_size_t(n), orders, values)
+        return status, np.array(values)
+
+    def save(self, snapshot: ct.c_void_p | None = None) -> ct.c_void_p:
+        snapshot = ct.c_void_p() if snapshot is None else snapshot
+        assert self.call("fmi2GetFMUstate", ct.byref(snapshot)) == OK
+        return snapshot
+
+    def restore(self, snapshot: ct.c_void_p) -> int:
+        status = self.call("fmi2SetFMUstate", snapshot)
+        if status == OK and self.call("fmi2GetRealStatus", 2, ct.byref(value := ct.c_double())) == OK:
+            self.time = value.value
+        return status
+
+    def drop(self, snapshot: ct.c_void_p) -> None:
+        assert self.call("fmi2FreeFMUstate", ct.byref(snapshot)) == OK
+        assert not snapshot
+
+    def serialize(self, snapshot: ct.c_void_p) -> bytes:
+        size = ct.c_size_t()
+        assert self.call("fmi2SerializedFMUstateSize", snapshot, ct.byref(size)) == OK
+        buffer = ct.create_string_buffer(size.value)
+        assert self.call("fmi2SerializeFMUstate", snapshot, buffer, size) == OK
+        return buffer.raw
+
+    def deserialize(self, data: bytes) -> tuple[int, ct.c_void_p]:
+        snapshot = ct.c_void_p()
+        status = self.call("fmi2DeSerializeFMUstate", data, ct.c_size_t(len(data)), ct.byref(snapshot))
+        return status, snapshot
 
     def step(self, size: float, time: float | None = None) -> int:
         start = self.time if time is None else time
@@ -157,20 +219,32 @@ class Unit:
             self.component = None
 
 
-def compile_model(model: Model, folder: Path) -> Library:
+def compile_sources(model: Model, folder: Path, fmi: int, flags: list[str], extra: str, output: str) -> Path:
+    """The runtime with one facade, the model, and one more file of this folder."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "variables.h").write_text(model.header(), encoding="utf-8")
     (folder / "model.c").write_text(model.source(), encoding="utf-8")
-    path = folder / f"{model.name}.so"
-    sources = [*sorted(RUNTIME.glob("*.c")), Path(__file__).parent / "probe.c", folder / "model.c"]
+    other = {2: "fmi3", 3: "fmi2"}[fmi]
+    runtime = [file for file in sorted(RUNTIME.glob("*.c")) if not file.name.startswith(other)]
+    sources = [*runtime, Path(__file__).parent / extra, folder / "model.c"]
     compiler = os.environ.get("CC") or shutil.which("cc") or shutil.which("gcc")
     assert compiler is not None, "these tests need a C compiler"
-    command = [compiler, *FLAGS, f"-I{folder}", f"-I{RUNTIME}", f"-I{FMI_HEADERS}", *map(str, sources)]
-    subprocess.run([*command, "-o", str(path), "-lm"], check=True)
+    command = [compiler, *flags, f"-I{folder}", f"-I{RUNTIME}", f"-isystem{FMI_HEADERS}", *map(str, sources)]
+    subprocess.run([*command, "-o", str(folder / output), "-lm"], check=True)
+    return folder / output
+
+
+def load(path: Path) -> ct.CDLL:
+    """A library with the FMI 2.0 facade."""
     dll = ct.CDLL(str(path))
     dll.fmi2Instantiate.restype = ct.c_void_p
     dll.fmi2Instantiate.argtypes = [ct.c_char_p, ct.c_int, ct.c_char_p, ct.c_char_p, ct.c_void_p, ct.c_int, ct.c_int]
     dll.probe_state_size.restype = ct.c_size_t
     dll.fmi2FreeInstance.argtypes = [ct.c_void_p]
     dll.fmi2FreeInstance.restype = None
-    return Library(model, path, dll)
+    return dll
+
+
+def compile_model(model: Model, folder: Path, fmi: int = 2) -> Library:
+    path = compile_sources(model, folder, fmi, FLAGS, "probe.c", f"{model.name}-{fmi}.so")
+    return Library(model, path, load(path) if fmi == 2 else ct.CDLL(str(path)))

@@ -1,0 +1,1 @@
+"""Measurements of the FMU; `make bench` runs them."""

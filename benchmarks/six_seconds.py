@@ -1,0 +1,104 @@
+"""Figure 8's six seconds in C: CPU time, its ratio to the arithmetic alone, steps, size and error. `make bench`."""
+
+from __future__ import annotations
+
+import platform
+import subprocess
+import sys
+import tempfile
+import zipfile
+from collections import defaultdict
+from pathlib import Path
+from statistics import median
+
+import fmpy
+import numpy as np
+
+from fmu_build.compile import OPTIONS, compiler
+from overrun_hitch.parameters import FIGURES
+from tests.oracles import radau
+
+HERE = Path(__file__).parent
+PROCESSES = 9  # each has its own layout of memory, which moves the times by some per cent
+RUNS = 201
+HEAD = """# Six seconds of figure 8
+
+Written by `make bench`: a C program drives the FMU's own sources through the FMI 2 functions in 600 steps of 10 ms and
+reads the compression after each; medians of {runs} runs on one core. The other side of the ratio, the arithmetic that
+a run takes (without the outputs at the communication points), is measured between the runs.
+
+{processor}; {compiler}.
+
+"""
+
+
+def measure(fmu: Path, folder: Path) -> dict[str, list[float]]:
+    """What six_seconds.c prints: values by name."""
+    with zipfile.ZipFile(fmu) as archive:
+        archive.extractall(folder)
+    description = fmpy.read_model_description(str(fmu))
+    references = {v.name: str(v.valueReference) for v in description.modelVariables}
+    sources = [str(HERE / "six_seconds.c"), *map(str, sorted((folder / "sources").glob("*.c")))]
+    options = [option for option in OPTIONS if option != "-shared"]
+    program = folder / "six_seconds"
+    command = [*compiler(), *options, f"-I{folder / 'sources'}", *sources, "-o", str(program), "-lm"]
+    subprocess.run(command, check=True)
+    arguments = [description.guid, references["brake_torque"], references["compression"], str(RUNS)]
+    values = defaultdict(list)
+    for _ in range(PROCESSES):
+        printed = subprocess.run([program, *arguments], check=True, capture_output=True, text=True).stdout
+        for line in printed.splitlines():
+            name, _, value = line.rpartition(" ")
+            values[name].append(float(value))
+    return values
+
+
+def processor() -> str:
+    """The model of this machine's processor."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        return platform.processor() or platform.machine()
+    return next((line.partition(":")[2].strip() for line in lines if line.startswith("model name")), platform.machine())
+
+
+def table(values: dict[str, list[float]]) -> tuple[list[str], bool]:
+    """The report, and whether every requirement is met."""
+    total, ratio = median(values["total"]), median(values["ratio"])
+    size, steps, rejected, events, repeated = (
+        int(values[name][0]) for name in ("bytes", "steps", "rejected", "events", "repeated")
+    )
+    oracle = radau.trajectory(FIGURES["8"].parameters).compression[::10]
+    error = float(np.abs(np.reshape(values["compression"], (PROCESSES, -1)) - oracle).max())
+    requirements = [
+        ("CPU time", f"{1e3 * total:.3f} ms", "1 ms", total <= 1e-3),
+        ("its ratio to the arithmetic alone", f"{ratio:.2f}", "3", ratio <= 3.0),
+        ("error of the compression", f"{error:.1e} m", "2e-6 m", error <= 2e-6),
+        ("size of an instance", f"{size} bytes", "65536 bytes", size < 65536),
+        ("rejected steps / steps", f"{rejected} / {steps}", "1 / 10", 10 * rejected < steps),
+    ]
+    lines = ["| | measured | at most | |", "|---|---|---|---|"]
+    lines += [f"| {n} | {m} | {limit} | {'met' if met else 'NOT MET'} |" for n, m, limit, met in requirements]
+    lines += ["", f"Events: {events}; steps repeated to end at one: {repeated}.", ""]
+    lines += ["| arithmetic | times | each | together |", "|---|---|---|---|"]
+    for name in (name for name in values if ":" in name):
+        kind, _, times = name.partition(":")
+        together = median(values[name])
+        lines.append(f"| {kind} | {times} | {1e9 * together / int(times):.1f} ns | {1e3 * together:.3f} ms |")
+    return lines, all(met for *_, met in requirements)
+
+
+def main() -> int:
+    """Measure FMU, print the table and write it to results.md; 1 where a requirement is missed."""
+    with tempfile.TemporaryDirectory(prefix="benchmark-") as folder:
+        lines, met = table(measure(Path(sys.argv[1]), Path(folder)))
+    made_by = subprocess.run([*compiler(), "--version"], capture_output=True, text=True, check=True).stdout
+    compiled_by = made_by.splitlines()[0]
+    text = HEAD.format(runs=PROCESSES * RUNS, processor=processor(), compiler=compiled_by) + "\n".join([*lines, ""])
+    (HERE / "results.md").write_text(text, encoding="utf-8")
+    print(text)
+    return 0 if met else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,49 @@
+"""Annotations of a class, from its Modelica text: rumoca's flat form leaves them out."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from .ir import Experiment
+
+
+def class_text(class_name: str, texts: Iterable[str]) -> str:
+    """The text of the class from its keyword to its end; "" if none of ``texts`` has it."""
+    name = re.escape(class_name.rpartition(".")[2])
+    pattern = re.compile(rf"\b(?:model|block|class)\s+{name}\b.*?\bend\s+{name}\s*;", re.DOTALL)
+    found = (pattern.search(text) for text in texts)
+    return next((match.group(0) for match in found if match), "")
+
+
+def read_experiment(text: str) -> Experiment:
+    """The experiment annotation."""
+    body = _arguments("experiment", text)
+    values = {key: float(value) for key, value in re.findall(r"(\w+)\s*=\s*([-+.\deE]+)", body)}
+    return Experiment(*(values.get(key) for key in ("StartTime", "StopTime", "Tolerance", "Interval")))
+
+
+def read_documentation(text: str) -> str:
+    """The HTML of Documentation(info="..."), without its html element; links into Modelica become plain text."""
+    found = re.search(r'\bDocumentation\s*\(\s*info\s*=\s*"((?:\\.|[^"\\])*)"', text, re.DOTALL)
+    html = re.sub(r"\\(.)", r"\1", found.group(1)) if found else ""
+    html = re.sub(r"</?html>", "", html)
+    return re.sub(r'<a href="modelica:[^"]*">(.*?)</a>', r"\1", html, flags=re.DOTALL).strip()
+
+
+def read_icon(text: str) -> str:
+    """The arguments of the Icon annotation."""
+    return _arguments("Icon", text)
+
+
+def _arguments(name: str, text: str) -> str:
+    """What stands between the parentheses of ``name(...)``, strings and inner parentheses minded."""
+    start = re.search(rf"\b{name}\s*\(", text)
+    if not start:
+        return ""
+    depth = 1
+    for token in re.finditer(r'"(?:\\.|[^"\\])*"|[()]', text[start.end() :]):
+        depth += {"(": 1, ")": -1}.get(token.group(0), 0)
+        if depth == 0:
+            return text[start.end() : start.end() + token.start()]
+    return ""

@@ -1,0 +1,45 @@
+"""Everything in an FMU but the binaries: path in the archive to content. Only this differs between FMI 2 and 3."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from . import xml_fmi2, xml_fmi3
+from .compile import RUNTIME, fmi_headers
+from .documentation import document
+from .icon import draw_icon
+from .interface import Interface
+from .ir import TOKEN_PLACEHOLDER, CSources, FlatModel
+
+LICENSE = Path(__file__).parents[1] / "LICENSE"
+SOURCES = "sources/"
+
+
+def contents(flat: FlatModel, interface: Interface, generated: CSources, fmi: int) -> dict[str, bytes]:
+    """The files of an FMI 2 or FMI 3 unit, with the placeholder where its token will stand."""
+    sources = {file.name: file.read_bytes() for file in _hand_written(fmi)}
+    sources |= {name: text.encode() for name, text in generated.files.items()}
+    compiled = sorted(name for name in sources if name.endswith(".c"))
+    icon = draw_icon(flat.icon, interface.identifier)
+    if fmi == 2:
+        picture = "model.png"
+        files = {"modelDescription.xml": xml_fmi2.describe(interface, TOKEN_PLACEHOLDER, compiled)}
+    else:
+        picture = "terminalsAndIcons/icon.png"
+        files = {
+            "modelDescription.xml": xml_fmi3.describe(interface, TOKEN_PLACEHOLDER),
+            "terminalsAndIcons/terminalsAndIcons.xml": xml_fmi3.describe_icon(),
+            f"{SOURCES}buildDescription.xml": xml_fmi3.describe_build(interface.identifier, compiled),
+        }
+    files |= {f"{SOURCES}{name}": content for name, content in sources.items()}
+    files["documentation/index.html"] = document(interface, flat.documentation, f"../{picture}")
+    files["documentation/licenses/LICENSE.txt"] = LICENSE.read_bytes()
+    files[picture] = icon
+    return files
+
+
+def _hand_written(fmi: int) -> list[Path]:
+    """The runtime with the facade of one version of the standard, and that version's headers."""
+    other = {2: "fmi3", 3: "fmi2"}[fmi]
+    runtime = [file for file in RUNTIME.glob("*.[ch]") if not file.name.startswith(other)]
+    return sorted([*runtime, *fmi_headers().glob(f"fmi{fmi}*.h")])

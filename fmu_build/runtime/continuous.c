@@ -1,0 +1,121 @@
+#include "continuous.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "validation.h"
+
+/* Shift of an event indicator, times the nominal value of its residual: far below what a root finder locates. */
+static const double INDICATOR_SHIFT = 1e-12;
+
+Status instance_enter_event_mode(Instance *instance)
+{
+    State *s = &instance->state;
+    s->phase = EVENT_MODE;
+    if (s->event_waits) { /* the step has found out what the truths will be, and no fresh look would tell on a surface
+                           */
+        memcpy(s->holds, s->next_holds, sizeof s->holds);
+        s->event_waits = false;
+        s->current = false;
+    } else {
+        s->settled = s->current = false;
+    }
+    return STATUS_OK;
+}
+
+Status instance_update_truths(Instance *instance)
+{
+    Message why;
+    return instance_update(instance, &why) ? STATUS_OK : instance_refuse(instance, &why);
+}
+
+Status instance_leave_event_mode(Instance *instance)
+{
+    State *s = &instance->state;
+    Message why;
+    if (!instance_update(instance, &why) || !valid_variables(&s->v, &why)) {
+        return instance_refuse(instance, &why);
+    }
+    s->phase = s->use == MODEL_EXCHANGE ? CONTINUOUS : STEPPING;
+    return STATUS_OK;
+}
+
+Status instance_set_time(Instance *instance, double time)
+{
+    State *s = &instance->state;
+    Message why;
+    if (!isfinite(time)) {
+        message_write(&why, "time = %s is not allowed: it must be finite", quantity(time, "s").text);
+        return instance_refuse(instance, &why);
+    }
+    s->current = s->current && s->v.time == time;
+    s->v.time = time;
+    return STATUS_OK;
+}
+
+Status instance_set_states(Instance *instance, const double states[])
+{
+    State *s = &instance->state;
+    Message why;
+    Point p = {.time = s->v.time};
+    for (int i = 0; i < N_STATES; i++) {
+        if (!valid_result((unsigned)(FIRST_STATE + i), states[i], s->v.time, &why)) {
+            return instance_discard(instance, &why);
+        }
+    }
+    memcpy(p.state, states, N_STATES * sizeof(double));
+    if (!valid_states(&p, s->tolerance, &why)) {
+        return instance_discard(instance, &why);
+    }
+    memcpy(&s->v.at[FIRST_STATE], states, N_STATES * sizeof(double));
+    s->current = false;
+    return STATUS_OK;
+}
+
+Status instance_get_states(Instance *instance, double states[])
+{
+    Message why;
+    if (!instance_settle(instance, &why)) { /* start values may follow from parameters */
+        return instance_refuse(instance, &why);
+    }
+    return instance_copy(instance, FIRST_STATE, N_STATES, states);
+}
+
+Status instance_get_derivatives(Instance *instance, double derivatives[])
+{
+    State *s = &instance->state;
+    Message why;
+    if (!instance_settle(instance, &why)) {
+        return instance_refuse(instance, &why);
+    }
+    if (!s->current) {
+        model_derivatives(&s->v, s->holds);
+    }
+    return instance_copy(instance, FIRST_DERIVATIVE, N_STATES, derivatives);
+}
+
+void instance_get_nominals(double nominals[])
+{
+    for (int i = 0; i < N_STATES; i++) {
+        nominals[i] = variable_info[FIRST_STATE + i].nominal;
+    }
+}
+
+Status instance_get_indicators(Instance *instance, double indicators[])
+{
+    State *s = &instance->state;
+    Message why;
+    double z[AT_LEAST_ONE(N_RELATIONS)];
+    if (!instance_settle(instance, &why)) {
+        return instance_refuse(instance, &why);
+    }
+    model_relations(&s->v, s->holds, z);
+    for (int i = 0; i < N_RELATIONS; i++) {
+        const double shift = INDICATOR_SHIFT * variable_info[relation_reference[i]].nominal;
+        indicators[i] = s->holds[i] ? z[i] + shift : z[i] - shift;
+        if (!valid_result(relation_reference[i], indicators[i], s->v.time, &why)) {
+            return instance_discard(instance, &why);
+        }
+    }
+    return STATUS_OK;
+}

@@ -1,0 +1,27 @@
+/* Inputs that move linearly in time: u(t) = u(start) + slope * (t - start). */
+#ifndef RAMP_H
+#define RAMP_H
+
+#include "model.h"
+
+typedef struct {
+    bool moves; /* some slope is not zero, and the step for which they were set is not over */
+    double start;
+    double from[AT_LEAST_ONE(N_INPUTS)];
+    double slope[AT_LEAST_ONE(N_INPUTS)];
+    bool over; /* the slopes are those of the last step, and are forgotten when the next one begins */
+} Ramp;
+
+/* A slope for the next step. */
+void ramp_set(Ramp *ramp, int input, double slope);
+
+/* The inputs in v are those at the beginning of a step. */
+void ramp_begin(Ramp *ramp, const Variables *v);
+
+/* Inputs at v->time, during a step. Where rounding leads one out of its range, it stays at the limit. */
+void ramp_apply(const Ramp *ramp, Variables *v);
+
+/* The step is over: from now on the inputs are constant. */
+void ramp_end(Ramp *ramp);
+
+#endif

@@ -1,0 +1,118 @@
+#include "stepping.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "validation.h"
+
+/* More steps than this between two communication points are taken for a run without end. */
+enum { MAX_STEPS = 1000000 };
+
+Status instance_set_slopes(Instance *instance, const unsigned references[], size_t n, const double slopes[])
+{
+    Message why;
+    for (size_t i = 0; i < n; i++) {
+        if (!valid_slope(references[i], slopes[i], &why)) {
+            return instance_refuse(instance, &why);
+        }
+    }
+    for (size_t i = 0; i < n; i++) {
+        ramp_set(&instance->state.ramp, (int)references[i] - FIRST_INPUT, slopes[i]);
+    }
+    return STATUS_OK;
+}
+
+static void log_events(const Instance *instance, const Point *arrival)
+{
+    for (int i = 0; i < N_RELATIONS && instance->logs[LOG_EVENT]; i++) {
+        if (arrival->holds[i] != instance->state.holds[i]) {
+            Message event;
+            message_write(&event, "%s becomes %s at t = %.17g s", relation_text[i],
+                          arrival->holds[i] ? "true" : "false", arrival->time);
+            instance_log(instance, LOG_EVENT, STATUS_OK, &event);
+        }
+    }
+}
+
+/* At an event that waits for the caller the old truths go on to hold. */
+static void commit(State *s, const Point *arrival, bool waits)
+{
+    s->v.time = arrival->time;
+    memcpy(&s->v.at[FIRST_STATE], arrival->state, N_STATES * sizeof(double));
+    ramp_apply(&s->ramp, &s->v);
+    memcpy(s->next_holds, arrival->holds, sizeof s->next_holds);
+    s->event_waits = waits;
+    if (!waits) {
+        memcpy(s->holds, arrival->holds, sizeof s->holds);
+    }
+    s->current = false;
+}
+
+/* The end that the caller wants, seen at an intermediate point. */
+static double intermediate(Instance *instance, const StepOptions *options)
+{
+    State *s = &instance->state;
+    s->phase = UPDATING;
+    const double end = options->intermediate(options->receiver, s->v.time);
+    s->phase = STEPPING;
+    return options->may_return_early ? fmax(end, s->v.time) : (double)INFINITY;
+}
+
+static bool integrate(Instance *instance, double target, const StepOptions *options, Message *why)
+{
+    State *s = &instance->state;
+    const bool events_wait = s->use == CO_SIMULATION_WITH_EVENTS && options->may_return_early;
+    for (int steps = 0; s->v.time < target && !s->event_waits; steps++) {
+        Point arrival;
+        const double start = s->v.time;
+        if (steps == MAX_STEPS) {
+            message_write(why, "%d integrator steps have led from the communication point to t = %s only", MAX_STEPS,
+                          quantity(start, "s").text);
+            return false;
+        }
+        if (!integrator_step(&s->integrator, &instance->workspace, &s->v, s->holds, &s->ramp, target, s->tolerance,
+                             &arrival, why) ||
+            !valid_states(&arrival, s->tolerance, why)) {
+            return false;
+        }
+        if (arrival.event) {
+            log_events(instance, &arrival);
+            if (events_too_dense(&s->density, arrival.time, s->holds, arrival.holds, why)) {
+                return false;
+            }
+        }
+        commit(s, &arrival, arrival.event && events_wait);
+        if (options->intermediate != NULL && s->v.time > start) {
+            target = fmin(target, intermediate(instance, options));
+        }
+    }
+    return true;
+}
+
+Status instance_step(Instance *instance, double time, double size, const StepOptions *options, StepResult *result)
+{
+    State *s = &instance->state;
+    const double target = time + size;
+    Message why;
+    *result = (StepResult){.time = s->v.time};
+    if (!valid_step(s, time, size, &why) || !valid_ramp(s, target, &why) || !instance_settle(instance, &why)) {
+        return instance_refuse(instance, &why);
+    }
+    if (!s->after_event) {
+        events_watch(&s->density, s->v.time, target);
+    }
+    ramp_begin(&s->ramp, &s->v);
+    const bool arrived = integrate(instance, target, options, &why);
+    ramp_end(&s->ramp);
+    if (!s->current) { /* the caller may have read them in between */
+        model_outputs(&s->v, s->holds);
+        s->current = true;
+    }
+    s->after_event = s->event_waits;
+    if (!arrived || !valid_variables(&s->v, &why)) {
+        s->phase = FAILED;
+        return instance_refuse(instance, &why);
+    }
+    *result = (StepResult){.event = s->event_waits, .early = s->v.time < target, .time = s->v.time};
+    return STATUS_OK;
+}

@@ -1,0 +1,97 @@
+"""An Interface to the XML files of FMI 3.0: modelDescription.xml, buildDescription.xml, terminalsAndIcons.xml."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lxml import etree
+
+from .interface import GENERATION_TOOL, Dependencies, Entry, Interface
+from .xml_common import add_log_categories, add_units, to_bytes
+
+CAPABILITIES = {
+    "canGetAndSetFMUState": "true",
+    "canSerializeFMUState": "true",
+    "providesDirectionalDerivatives": "true",
+    "providesAdjointDerivatives": "true",
+    "providesEvaluateDiscreteStates": "true",
+}
+CO_SIMULATION = {
+    "canHandleVariableCommunicationStepSize": "true",
+    "maxOutputDerivativeOrder": "1",
+    "providesIntermediateUpdate": "true",
+    "mightReturnEarlyFromDoStep": "true",
+    "canReturnEarlyAfterIntermediateUpdate": "true",
+    "hasEventMode": "true",
+}
+
+
+def describe(interface: Interface, token: str) -> bytes:
+    """modelDescription.xml, with ``token`` as its instantiation token."""
+    root = etree.Element(
+        "fmiModelDescription",
+        fmiVersion="3.0",
+        modelName=interface.name,
+        instantiationToken=token,
+        description=interface.description,
+        generationTool=GENERATION_TOOL,
+        variableNamingConvention="structured",
+    )
+    etree.SubElement(root, "ModelExchange", {"modelIdentifier": interface.identifier} | CAPABILITIES)
+    etree.SubElement(root, "CoSimulation", {"modelIdentifier": interface.identifier} | CAPABILITIES | CO_SIMULATION)
+    add_units(root, interface.units)
+    add_log_categories(root)
+    etree.SubElement(root, "DefaultExperiment", interface.experiment)
+    listing = etree.SubElement(root, "ModelVariables")
+    entries = (*interface.entries, *interface.event_indicators)
+    reference = {entry.name: entry.reference for entry in entries}
+    for entry in entries:
+        _variable(listing, entry, reference)
+    structure = etree.SubElement(root, "ModelStructure")
+    _unknowns(structure, "Output", interface.outputs, reference)
+    _unknowns(structure, "ContinuousStateDerivative", interface.derivatives, reference)
+    _unknowns(structure, "InitialUnknown", interface.initial_unknowns, reference)
+    _unknowns(structure, "EventIndicator", interface.indicator_sources, reference)
+    return to_bytes(root)
+
+
+def describe_build(identifier: str, sources: Sequence[str]) -> bytes:
+    """sources/buildDescription.xml: one set of C11 files, the C and mathematical libraries, FMI's headers."""
+    root = etree.Element("fmiBuildDescription", fmiVersion="3.0")
+    configuration = etree.SubElement(root, "BuildConfiguration", modelIdentifier=identifier)
+    files = etree.SubElement(configuration, "SourceFileSet", language="C11")
+    for name in sources:
+        etree.SubElement(files, "SourceFile", name=name)
+    etree.SubElement(configuration, "Library", name="m", external="true", description="C mathematical library")
+    return to_bytes(root)
+
+
+def describe_icon() -> bytes:
+    """terminalsAndIcons/terminalsAndIcons.xml: where the icon's picture lies in Modelica's coordinates."""
+    root = etree.Element("fmiTerminalsAndIcons", fmiVersion="3.0")
+    graphics = etree.SubElement(root, "GraphicalRepresentation")
+    corners = {"x1": "-100", "y1": "-100", "x2": "100", "y2": "100"}
+    etree.SubElement(graphics, "CoordinateSystem", corners, suggestedScalingFactorTo_mm="0.1")
+    etree.SubElement(graphics, "Icon", corners)
+    return to_bytes(root)
+
+
+def _variable(listing: etree._Element, entry: Entry, reference: dict[str, int]) -> None:
+    attributes = {"name": entry.name, "valueReference": str(entry.reference)}
+    if entry.variable.description:
+        attributes["description"] = entry.variable.description
+    attributes |= {"causality": entry.causality, "variability": entry.variability}
+    if entry.initial:
+        attributes["initial"] = entry.initial
+    attributes |= entry.attributes
+    if entry.start is not None:
+        attributes["start"] = repr(entry.start)
+    if entry.derivative_of:
+        attributes["derivative"] = str(reference[entry.derivative_of])
+    etree.SubElement(listing, "Float64", attributes)
+
+
+def _unknowns(structure: etree._Element, tag: str, unknowns: Dependencies, reference: dict[str, int]) -> None:
+    for name, knowns in unknowns.items():
+        numbers = " ".join(str(reference[known]) for known in knowns)
+        etree.SubElement(structure, tag, valueReference=str(reference[name]), dependencies=numbers)

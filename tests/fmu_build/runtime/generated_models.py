@@ -1,0 +1,69 @@
+"""Models that the generator writes from Modelica, in the shape of the hand-written ones."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from runtime_models import TOKEN
+
+from fmu_build.c_model import print_c
+from fmu_build.equations import derive
+from fmu_build.frontend import flatten
+from fmu_build.ir import TOKEN_PLACEHOLDER
+from fmu_build.jacobian import differentiate
+from fmu_build.sort import sort
+
+# Nonlinear in all that is known, with direct feedthrough, a calculated parameter, a start value that follows from
+# parameters, and a relation.
+NONLINEAR = """model Nonlinear
+  parameter Real a(unit="1") = 0.7;
+  parameter Real b(unit="1") = 1.3;
+  parameter Real g(unit="1") = a*a*b;
+  parameter Real x_0(unit="1") = 0.4;
+  input Real u(unit="1", start=0.3);
+  Real x(unit="1", start=x_0*b, fixed=true);
+  Real y(unit="1", start=0.2, fixed=true);
+  output Real p(unit="1");
+  output Real q(unit="1");
+  output Real of_state(unit="1") = y;
+equation
+  der(x) = -g*x + sin(time)*y + u*u;
+  der(y) = -b*x*y + (if x > 0.25 then a*(x - 0.25)*u else 0);
+  p = x*x*y + a*u + cos(b*time);
+  q = exp(-x)*y/(1 + g);
+end Nonlinear;
+"""
+
+
+@dataclass(frozen=True)
+class GeneratedModel:
+    name: str
+    variables_h: str
+    model_c: str
+    value_references: dict[str, int]
+    states: tuple[str, ...]
+    relations: tuple[object, ...]
+
+    def header(self) -> str:
+        return self.variables_h.replace(TOKEN_PLACEHOLDER, TOKEN)
+
+    def source(self) -> str:
+        return self.model_c
+
+    def references(self) -> dict[str, int]:
+        return self.value_references
+
+
+def generate(modelica: Path, class_name: str) -> GeneratedModel:
+    model = sort(derive(flatten(modelica, class_name)))
+    name = class_name.rpartition(".")[2]
+    files = print_c(model, differentiate(model), name).files
+    return GeneratedModel(
+        name,
+        files["variables.h"],
+        files["model.c"],
+        dict(model.value_references),
+        tuple(model.states),
+        tuple(model.relations),
+    )

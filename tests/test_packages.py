@@ -1,0 +1,113 @@
+"""What is inside the FMU files: clean under both checkers, complete, and able to rebuild themselves."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import zipfile
+from html.parser import HTMLParser
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy.validation import validate_fmu
+from lxml import etree
+
+from fmu_build.compile import compiler
+
+VERSIONS = [2, 3]
+FIGURE_8 = {"stop_time": 6.0, "output_interval": 0.1, "start_values": {"brake_torque": 1000.0}}
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_fmpy_finds_nothing(car_trailer_fmus: dict[int, Path], version: int) -> None:
+    assert validate_fmu(str(car_trailer_fmus[version])) == []
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_the_manipulation_toolbox_finds_nothing(car_trailer_fmus: dict[int, Path], version: int) -> None:
+    command = [str(Path(sys.executable).with_name("fmutool")), "-input", str(car_trailer_fmus[version]), "-check"]
+    result = subprocess.run(command, capture_output=True, text=True, check=True)
+    report = result.stdout + result.stderr
+    assert f"compliant with FMI-{version}.0" in report and "No semantic error" in report
+    assert "WARNING" not in report and "ERROR" not in report
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_both_versions_show_the_same_variables(car_trailer_fmus: dict[int, Path], version: int) -> None:
+    two, three = (fmpy.read_model_description(str(car_trailer_fmus[v])) for v in VERSIONS)
+    variables = {v.name: (v.valueReference, v.causality, v.variability, v.initial, v.unit) for v in two.modelVariables}
+    others = {v.name: (v.valueReference, v.causality, v.variability, v.initial, v.unit) for v in three.modelVariables}
+    indicators = {v.variable.name for v in three.eventIndicators}
+    assert indicators == {"relation[1]", "relation[2]"} and two.numberOfEventIndicators == 2
+    assert variables == {name: roles for name, roles in others.items() if name not in indicators}
+    assert len({reference for reference, *_ in others.values()}) == len(others)  # no shared value references
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_the_sources_inside_rebuild_the_binary(car_trailer_fmus: dict[int, Path], version: int, tmp_path: Path) -> None:
+    fmu = car_trailer_fmus[version]
+    fmpy.extract(str(fmu), unzipdir=str(tmp_path / "unpacked"))
+    sources = tmp_path / "unpacked" / "sources"
+    if version == 3:
+        build = etree.parse(str(sources / "buildDescription.xml"))
+        files = [element.get("name") for element in build.iter("SourceFile")]
+    else:
+        description = etree.parse(str(tmp_path / "unpacked" / "modelDescription.xml"))
+        files = [element.get("name") for element in description.find("CoSimulation").iter("File")]
+    library = tmp_path / "rebuilt.so"
+    command = [
+        *compiler(),
+        "-std=c11",
+        "-O1",
+        "-ffp-contract=off",
+        "-fPIC",
+        "-shared",
+        *files,
+        "-o",
+        str(library),
+        "-lm",
+    ]
+    subprocess.run(command, cwd=sources, check=True)
+    rebuilt = tmp_path / "rebuilt.fmu"
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(rebuilt, "w") as new:
+        for name in old.namelist():
+            new.writestr(name, library.read_bytes() if name.startswith("binaries/") else old.read(name))
+    first, second = (fmpy.simulate_fmu(str(path), **FIGURE_8) for path in (fmu, rebuilt))
+    for name in first.dtype.names:
+        np.testing.assert_array_equal(first[name], second[name])
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_documentation_picture_and_licence(car_trailer_fmus: dict[int, Path], version: int) -> None:
+    with zipfile.ZipFile(car_trailer_fmus[version]) as archive:
+        names = set(archive.namelist())
+        page = archive.read("documentation/index.html").decode()
+        licence = archive.read("documentation/licenses/LICENSE.txt").decode()
+        picture = archive.read("model.png" if version == 2 else "terminalsAndIcons/icon.png")
+    assert licence.startswith("MIT License") and picture.startswith(b"\x89PNG")
+    links: list[str] = []
+
+    class Links(HTMLParser):
+        def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
+            links.extend(value for key, value in attributes if key in {"src", "href"} and value)
+
+    Links().feed(page)
+    local = {link for link in links if not link.startswith("https://doi.org/")}
+    assert {str(Path("documentation") / link).replace("documentation/../", "") for link in local} <= names
+    for parameter in ("M_c", "k_t", "compression_start", "brake_torque", "F_hitch"):
+        assert f"<code>{parameter}</code>" in page
+    assert "modelica://" not in page
+
+
+def test_terminals_and_icons_follow_their_schema(car_trailer_fmus: dict[int, Path]) -> None:
+    schema_file = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"
+    schema = etree.XMLSchema(etree.parse(str(schema_file)))
+    with zipfile.ZipFile(car_trailer_fmus[3]) as archive:
+        schema.assertValid(etree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml")))
+    build_file = schema_file.with_name("fmi3BuildDescription.xsd")
+    with zipfile.ZipFile(car_trailer_fmus[3]) as archive:
+        etree.XMLSchema(etree.parse(str(build_file))).assertValid(
+            etree.fromstring(archive.read("sources/buildDescription.xml"))
+        )
