@@ -1,5 +1,5 @@
 .DEFAULT_GOAL := help
-.PHONY: help run test test-platforms fmu fmu-all bench sanitize lint format lock clean
+.PHONY: help run test test-platforms fuzz fmu fmu-all bench sanitize lint format lock clean
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -34,6 +34,9 @@ bench: $(READY) $(word 1,$(FMUS))  ## measure six seconds in C against what they
 
 sanitize: $(READY)  ## run the C drivers under AddressSanitizer and UndefinedBehaviorSanitizer
 	$(BIN)/python -m pytest tests/platforms/test_sanitized.py
+
+fuzz: $(READY)  ## a million random calls, legal and illegal, under the sanitizers (a minute)
+	$(BIN)/python tests/fmu_build/runtime/fuzz.py --calls 1000000
 
 lint: $(READY)  ## ruff, mypy, layers of imports, format of the C sources
 	$(BIN)/ruff check

@@ -266,7 +266,7 @@ def _kinds(model: SortedModel) -> dict[str, str]:
 
 def _number(value: float) -> str:
     if value in (float("inf"), -float("inf")):
-        return "INFINITY" if value > 0 else "-INFINITY"
+        return "(double)INFINITY" if value > 0 else "-(double)INFINITY"
     return repr(float(value))
 
 

@@ -14,6 +14,7 @@ CAPABILITIES = {
     "canSerializeFMUstate": "true",
     "providesDirectionalDerivative": "true",
 }
+MODEL_EXCHANGE = {"completedIntegratorStepNotNeeded": "true"}
 CO_SIMULATION = {
     "canHandleVariableCommunicationStepSize": "true",
     "canInterpolateInputs": "true",
@@ -34,7 +35,10 @@ def describe(interface: Interface, token: str, sources: Sequence[str]) -> bytes:
         numberOfEventIndicators=str(len(interface.event_indicators)),
     )
     identity = {"modelIdentifier": interface.identifier}
-    for tag, capabilities in (("ModelExchange", CAPABILITIES), ("CoSimulation", CAPABILITIES | CO_SIMULATION)):
+    for tag, capabilities in (
+        ("ModelExchange", CAPABILITIES | MODEL_EXCHANGE),
+        ("CoSimulation", CAPABILITIES | CO_SIMULATION),
+    ):
         kind = etree.SubElement(root, tag, identity | capabilities)
         files = etree.SubElement(kind, "SourceFiles")
         for name in sources:

@@ -14,6 +14,7 @@ CAPABILITIES = {
     "canSerializeFMUState": "true",
     "providesDirectionalDerivatives": "true",
     "providesAdjointDerivatives": "true",
+    "providesPerElementDependencies": "true",
     "providesEvaluateDiscreteStates": "true",
 }
 CO_SIMULATION = {
@@ -81,6 +82,8 @@ def _variable(listing: etree._Element, entry: Entry, reference: dict[str, int]) 
     if entry.variable.description:
         attributes["description"] = entry.variable.description
     attributes |= {"causality": entry.causality, "variability": entry.variability}
+    if entry.causality == "output":
+        attributes["intermediateUpdate"] = "true"  # may be read between communication points
     if entry.initial:
         attributes["initial"] = entry.initial
     attributes |= entry.attributes

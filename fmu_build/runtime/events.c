@@ -84,6 +84,8 @@ static double bisect(const Rodas *r, double before, double behind, Variables *v,
     return behind;
 }
 
+static double share(int sample) { return (double)sample / (double)SAMPLES; }
+
 bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving, Event *event)
 {
     double z[AT_LEAST_ONE(N_RELATIONS)];
@@ -91,7 +93,7 @@ bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving,
     if (N_RELATIONS == 0) {
         return false;
     }
-    while (!changed_at(r, (double)sample / SAMPLES, v, holds, z)) {
+    while (!changed_at(r, share(sample), v, holds, z)) {
         if (sample == SAMPLES) {
             return false;
         }
@@ -101,7 +103,7 @@ bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving,
         event->fraction = 0.0;
         return true;
     }
-    event->fraction = bisect(r, (double)(sample - 1) / SAMPLES, (double)sample / SAMPLES, v, holds);
+    event->fraction = bisect(r, share(sample - 1), share(sample), v, holds);
     (void)changed_at(r, event->fraction, v, holds, z);
     for (int i = 0; i < N_RELATIONS; i++) {
         event->truths[i] = z[i] > 0.0;
