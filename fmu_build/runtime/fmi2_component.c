@@ -62,12 +62,6 @@ static const struct {
     [GET_STRING_STATUS] = {"fmi2GetStringStatus", CS, STEPPED},
 };
 
-const char *const category_name[N_LOG_CATEGORIES] = {
-    [LOG_ERROR] = "logStatusError",
-    [LOG_WARNING] = "logStatusWarning",
-    [LOG_EVENT] = "logEvents",
-};
-
 fmi2Status to_fmi2(Status status)
 {
     static const fmi2Status same[] = {[STATUS_OK] = fmi2OK,
@@ -162,16 +156,6 @@ fmi2Status no_variables(fmi2Component c, Function function, size_t n)
     }
     message_write(&message, "%s: all variables are of type Real", rules[function].name);
     return report(component, STATUS_ERROR, &message);
-}
-
-int category_index(fmi2String name)
-{
-    for (int i = 0; i < N_LOG_CATEGORIES; i++) {
-        if (name != NULL && strcmp(name, category_name[i]) == 0) {
-            return i;
-        }
-    }
-    return N_LOG_CATEGORIES;
 }
 
 void component_create(Component *component, const char *name, Use use, const fmi2CallbackFunctions *callbacks)

@@ -78,9 +78,4 @@ const char *function_name(Function function);
 /* Log, and return the status. */
 fmi2Status report(Component *component, Status status, const Message *message);
 
-/* The category of that name; N_LOG_CATEGORIES if there is none. */
-int category_index(fmi2String name);
-
-extern const char *const category_name[N_LOG_CATEGORIES];
-
 #endif

@@ -65,12 +65,6 @@ static const struct {
     [ACTIVATE_MODEL_PARTITION] = {"fmi3ActivateModelPartition", BOTH, 0},
 };
 
-const char *const category_name[N_LOG_CATEGORIES] = {
-    [LOG_ERROR] = "logStatusError",
-    [LOG_WARNING] = "logStatusWarning",
-    [LOG_EVENT] = "logEvents",
-};
-
 fmi3Status to_fmi3(Status status)
 {
     static const fmi3Status same[] = {[STATUS_OK] = fmi3OK,
@@ -178,16 +172,6 @@ fmi3Status no_variables(fmi3Instance instance, Function function, size_t n)
     }
     message_write(&message, "%s: all variables are of type Float64, and there are no clocks", rules[function].name);
     return report(component, STATUS_ERROR, &message);
-}
-
-int category_index(fmi3String name)
-{
-    for (int i = 0; i < N_LOG_CATEGORIES; i++) {
-        if (name != NULL && strcmp(name, category_name[i]) == 0) {
-            return i;
-        }
-    }
-    return N_LOG_CATEGORIES;
 }
 
 Component *component_create(Use use, fmi3InstanceEnvironment environment, fmi3LogMessageCallback log_message)

@@ -81,9 +81,4 @@ fmi3Status report(Component *component, Status status, const Message *message);
 
 fmi3Status to_fmi3(Status status);
 
-/* The category of that name; N_LOG_CATEGORIES if there is none. */
-int category_index(fmi3String name);
-
-extern const char *const category_name[N_LOG_CATEGORIES];
-
 #endif

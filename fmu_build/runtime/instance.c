@@ -5,6 +5,22 @@
 
 #include "validation.h"
 
+const char *const category_name[N_LOG_CATEGORIES] = {
+    [LOG_ERROR] = "logStatusError",
+    [LOG_WARNING] = "logStatusWarning",
+    [LOG_EVENT] = "logEvents",
+};
+
+int category_index(const char *name)
+{
+    for (int i = 0; i < N_LOG_CATEGORIES; i++) {
+        if (name != NULL && strcmp(name, category_name[i]) == 0) {
+            return i;
+        }
+    }
+    return N_LOG_CATEGORIES;
+}
+
 void instance_log(const Instance *instance, LogCategory category, Status status, const Message *message)
 {
     if (instance->log != NULL && instance->logs[category]) {

@@ -35,6 +35,11 @@ typedef enum { STATUS_OK, STATUS_WARNING, STATUS_DISCARD, STATUS_ERROR } Status;
 
 typedef enum { LOG_ERROR, LOG_WARNING, LOG_EVENT, N_LOG_CATEGORIES } LogCategory;
 
+extern const char *const category_name[N_LOG_CATEGORIES];
+
+/* The category of that name; N_LOG_CATEGORIES if there is none. */
+int category_index(const char *name);
+
 typedef void LogFunction(void *receiver, LogCategory category, Status status, const char *message);
 
 typedef struct {
