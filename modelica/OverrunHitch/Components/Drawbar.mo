@@ -4,17 +4,20 @@ model Drawbar "Sliding drawbar with damper, clearance and its own stiffness in t
   parameter Units.Stiffness k_t = 548000 "Stiffness in tension";
   parameter Units.Damping C = 500 "Damper coefficient";
   parameter Units.Length eps(min=0) = 0 "Clearance (backlash)";
+  parameter Units.Force F_pull_max(min=0) = 1e9 "Largest force of the damper against the contact: 0 for a spring that never pulls";
   Interfaces.Flange front "Joined to the car" annotation(Placement(transformation(extent={{90,-10},{110,10}})));
   Interfaces.Flange rear "Joined to the trailer" annotation(Placement(transformation(extent={{-110,-10},{-90,10}})));
   Interfaces.LengthOutput compression(stateSelect=StateSelect.prefer, nominal=0.1) "Drawbar compression = rear.s - front.s" annotation(Placement(transformation(extent={{-10,-110},{10,-90}}, rotation=-90)));
   Units.Velocity v_rel "Rate of compression";
   Units.Force F_spring "Force of the springs, positive in compression";
+  Units.Force F_free "Hitch force of springs and damper, without limit, positive in tension";
   Units.Force F_h "Hitch force, positive in tension";
 equation
   compression = rear.s - front.s;
   v_rel = der(compression);
   F_spring = if compression > eps then k*(compression - eps) elseif compression < 0 then k_t*compression else 0;
-  F_h = -C*v_rel - F_spring "Paper's equation 5, in its three regimes of section 6";
+  F_free = -C*v_rel - F_spring "Paper's equation 5, in its three regimes of section 6";
+  F_h = if compression >= 0 and F_free > F_pull_max then F_pull_max elseif compression <= eps and F_free < -F_pull_max then -F_pull_max else F_free "Pull limited unless the stop is reached, push unless the spring is";
   front.f = F_h;
   rear.f = -F_h;
   annotation(
@@ -33,7 +36,10 @@ The damper acts in all three. The force is continuous in the compression; its sl
 <code>eps</code>.</p>
 <p>The compression is preferred as a state to the position of one of the vehicles: positions grow without limit, and a
 relative tolerance on them says little about their difference.</p>
-<p>An always acting damper can pull while the drawbar springs back from compression; the paper's does, and so does
-this one.</p>
+<p>An always acting damper pulls while the drawbar springs back fast from compression; the paper's does. The limit
+<code>F_pull_max</code> is for drawbars whose damper sits in the contact: the hitch force does not pull beyond it unless the
+drawbar is at its stop in tension, and does not push beyond it unless the spring is compressed. With 0 the contact in
+compression only pushes, the stop only pulls, and within the clearance there is no force; the force then jumps where a
+moving contact closes. The default is beyond any damper, so the paper's always acts.</p>
 </html>"));
 end Drawbar;

@@ -13,6 +13,7 @@ model CarTrailer "Car and trailer with an overrun brake (Sharp 1982)"
   parameter Units.Damping C = 500 "Drawbar damper coefficient";
   parameter Units.TorquePerLength r = 16303 "Trailer brake torque per unit of drawbar compression (2.975 m times k)";
   parameter Units.Length eps(min=0) = 0 "Drawbar clearance (backlash)";
+  parameter Units.Force F_pull_max(min=0) = 1e9 "Largest pull of the damper in a drawbar that is pushed in: 0 for none; the paper's damper has no limit";
   parameter Units.Velocity V_0(min=0.1) = 40 "Speed of both vehicles at the start";
   parameter Units.Length compression_start = 0 "Drawbar compression at the start";
   Interfaces.TorqueInput brake_torque(min=0) "Brake torque on the car's lumped wheels" annotation(Placement(transformation(extent={{20,80},{60,120}}, rotation=-90)));
@@ -27,7 +28,7 @@ model CarTrailer "Car and trailer with an overrun brake (Sharp 1982)"
   output Units.Torque trailer_brake_torque = linkage.brake_torque "Brake torque on the trailer's lumped wheels";
   Components.BrakedVehicle car(M=M_c, I=I_c, R=R_c, C_k=C_kc, V_0=V_0, final x_0=0) "Car" annotation(Placement(transformation(extent={{40,-20},{80,20}})));
   Components.BrakedVehicle trailer(M=M_t, I=I_t, R=R_t, C_k=C_kt, V_0=V_0, x_0=compression_start) "Trailer" annotation(Placement(transformation(extent={{-80,-20},{-40,20}})));
-  Components.Drawbar drawbar(k=k, k_t=k_t, C=C, eps=eps) "Drawbar" annotation(Placement(transformation(extent={{-20,-20},{20,20}})));
+  Components.Drawbar drawbar(k=k, k_t=k_t, C=C, eps=eps, F_pull_max=F_pull_max) "Drawbar" annotation(Placement(transformation(extent={{-20,-20},{20,20}})));
   Components.BrakeLinkage linkage(r=r, eps=eps) "Linkage from drawbar to trailer brakes" annotation(Placement(transformation(extent={{-20,-70},{-60,-50}})));
 equation
   connect(drawbar.front, car.hitch) annotation(Line(points={{20,0},{40,0}}, color={0,127,0}));
@@ -55,10 +56,12 @@ positive in tension. Slips and brake torques are positive when they brake a vehi
 <h2>Parameters</h2>
 <p>Masses, inertias, radii and tyre stiffnesses are the datum of the paper's section 7; <code>k</code> and <code>r</code>
 those of its case ii (section 8.1); <code>k_t = 100 k</code> that of figures 6a and 7 to 11. <code>V_0</code> and
-<code>compression_start</code> count at the start, the others may be changed during a run.</p>
+<code>compression_start</code> count at the start, the others may be changed during a run. With
+<code>F_pull_max = 0</code> the damper never makes a compressed drawbar pull, nor one at its stop push; the default is
+beyond any damper's force.</p>
 <h2>Limits</h2>
 <p>Forward driving above 0.1 m/s (the tyre law divides by the speed), slip up to about 0.1, level road, no drag, brakes
-that are torques and not friction, a drawbar damper that always acts.</p>
+that are torques and not friction.</p>
 <h2>Source</h2>
 <p>R. S. Sharp, <em>Longitudinal Oscillations of Vehicle/Trailer Combinations Induced by Overrun Braking</em>, Vehicle
 System Dynamics 11:1 (1982) 43-61, <a href=\"https://doi.org/10.1080/00423118208968687\">doi
