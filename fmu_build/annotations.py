@@ -36,6 +36,12 @@ def read_icon(text: str) -> str:
     return _arguments("Icon", text)
 
 
+def read_examples(text: str) -> tuple[str, ...]:
+    """The classes in our own annotation ``__fmu_build(referenceExamples={"...", "..."})``."""
+    listed = re.search(r"\breferenceExamples\s*=\s*\{([^}]*)\}", _arguments("__fmu_build", text))
+    return tuple(re.findall(r'"([^"]+)"', listed.group(1))) if listed else ()
+
+
 def _arguments(name: str, text: str) -> str:
     """What stands between the parentheses of ``name(...)``, strings and inner parentheses minded."""
     start = re.search(rf"\b{name}\s*\(", text)

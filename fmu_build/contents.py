@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from . import xml_fmi2, xml_fmi3
@@ -9,13 +10,16 @@ from .compile import RUNTIME, fmi_headers
 from .documentation import document
 from .icon import draw_icon
 from .interface import Interface
-from .ir import TOKEN_PLACEHOLDER, CSources, FlatModel
+from .ir import TOKEN_PLACEHOLDER, CSources, FlatModel, Simulation
+from .reference import reference_files
 
 LICENSE = Path(__file__).parents[1] / "LICENSE"
 SOURCES = "sources/"
 
 
-def contents(flat: FlatModel, interface: Interface, generated: CSources, fmi: int) -> dict[str, bytes]:
+def contents(
+    flat: FlatModel, interface: Interface, generated: CSources, references: Sequence[Simulation], fmi: int
+) -> dict[str, bytes]:
     """The files of an FMI 2 or FMI 3 unit, with the placeholder where its token will stand."""
     sources = {file.name: file.read_bytes() for file in _hand_written(fmi)}
     sources |= {name: text.encode() for name, text in generated.files.items()}
@@ -32,10 +36,12 @@ def contents(flat: FlatModel, interface: Interface, generated: CSources, fmi: in
             f"{SOURCES}buildDescription.xml": xml_fmi3.describe_build(interface.identifier, compiled),
         }
     files |= {f"{SOURCES}{name}": content for name, content in sources.items()}
-    files["documentation/index.html"] = document(interface, flat.documentation, f"../{picture}")
+    evidence = reference_files(interface, references)
+    page = document(interface, flat.documentation, f"../{picture}", has_references=bool(evidence))
+    files["documentation/index.html"] = page
     files["documentation/licenses/LICENSE.txt"] = LICENSE.read_bytes()
     files[picture] = icon
-    return files
+    return files | evidence
 
 
 def _hand_written(fmi: int) -> list[Path]:

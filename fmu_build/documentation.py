@@ -13,11 +13,19 @@ th, td { text-align: left; padding: .25em .6em .25em 0; vertical-align: top }
 th { border-bottom: 1px solid #888 } td { border-bottom: 1px solid #ddd } code { font-size: .95em }
 img { float: right; margin: 0 0 1em 1em }
 """
+REFERENCES = """<h2>Reference results</h2>
+<p>Another tool's results for examples of this unit are in <code>extra/</code>, see
+<a href="fmi-ls-ref.txt">fmi-ls-ref.txt</a>.</p>
+"""
 SECTIONS = {"input": "Inputs", "output": "Outputs", "parameter": "Parameters"}
 
 
-def document(interface: Interface, text: str, picture: str) -> bytes:
-    """The page: ``text`` is the HTML of the class's documentation, ``picture`` the path of its icon from the page."""
+def document(interface: Interface, text: str, picture: str, *, has_references: bool) -> bytes:
+    """The page: ``text`` is the HTML of the class's documentation, ``picture`` the path of its icon from the page.
+
+    ``has_references``: fmi-ls-ref.txt stands beside it and describes reference results.
+    """
+    references = REFERENCES if has_references else ""
     tables = "".join(_table(heading, causality, interface) for causality, heading in SECTIONS.items())
     page = f"""<!DOCTYPE html>
 <html lang="en">
@@ -41,7 +49,7 @@ absolute tolerance of a state is the relative one times its nominal value. Switc
 solution.</p>
 <p>The unit needs the C library and its mathematical part, no resources and no files. Values outside the ranges above
 are refused with a message.</p>
-<h2>Licence</h2>
+{references}<h2>Licence</h2>
 <p>MIT, see <a href="licenses/LICENSE.txt">licenses/LICENSE.txt</a>. The headers of the standard in
 <code>sources/</code> bear their own. Made by {escape(GENERATION_TOOL)} from the Modelica class
 <code>{escape(interface.name)}</code>.</p>

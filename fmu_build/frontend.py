@@ -8,16 +8,19 @@ sources; and it reads every .mo file beside the one it is given, as Modelica's d
 from __future__ import annotations
 
 import re
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import rumoca
 import sympy
+from numpy.typing import NDArray
 
-from .annotations import class_text, read_documentation, read_experiment, read_icon
+from .annotations import class_text, read_documentation, read_examples, read_experiment, read_icon
 from .errors import BuildError
 from .expressions import ExpressionReader, Sources, unwrap
-from .ir import Equation, FlatModel, Variable
+from .ir import Equation, FlatModel, Simulation, Variable
 
 UNSUPPORTED_SECTIONS = {
     "initial_equations": "initial equations",
@@ -28,6 +31,7 @@ UNSUPPORTED_SECTIONS = {
     "initial_assert_equations": "assert",
     "functions": "functions",
 }
+REFERENCE_TOLERANCES = (1e-9, 1e-11)  # relative; the difference between the two tells the accuracy
 STATE_SELECT = {"Never": -2, "Avoid": -1, "Default": 0, "Prefer": 1, "Always": 2}
 
 
@@ -36,16 +40,8 @@ def flatten(path: Path, class_name: str) -> FlatModel:
 
     Raises BuildError, with file and line, where the Modelica does not compile or uses what is not supported.
     """
-    entry = path / "package.mo" if path.is_dir() else path
-    if not entry.is_file():
-        raise BuildError(f"{entry}: no such Modelica file; give a .mo file or a library's folder with its package.mo")
-    try:
-        model = rumoca.Session().load(str(entry), model=class_name)
-        flat = model.to_dict("flat")
-        files = model.to_dict("dae")["source_map"]["files"]
-    except rumoca.RumocaError as error:
-        raise BuildError(_located_message(error, entry, class_name)) from None
-    sources = Sources({file_id: (name, text) for file_id, name, text in files}, root=entry.parent)
+    model, sources = _load(path, class_name)
+    flat = model.to_dict("flat")
     _refuse_unsupported_sections(flat, sources)
     reader = ExpressionReader(sources)
     constants = _constants(flat["variables"], reader)
@@ -64,7 +60,60 @@ def flatten(path: Path, class_name: str) -> FlatModel:
         experiment=read_experiment(text),
         documentation=read_documentation(text),
         icon=read_icon(text),
+        examples=read_examples(text),
     )
+
+
+def simulate(path: Path, class_name: str) -> Simulation:
+    """rumoca's own simulation of the class ``class_name`` over the time of its experiment annotation.
+
+    Raises BuildError where it does not compile, does not run, or has no experiment annotation.
+    """
+    model, sources = _load(path, class_name)
+    experiment = read_experiment(class_text(class_name, sources.texts()))
+    if experiment.stop_time is None or experiment.interval is None:
+        raise BuildError(
+            f"{class_name}: a reference needs StopTime and Interval in an experiment annotation of its own"
+        )
+    start = experiment.start_time or 0.0
+    count = round((experiment.stop_time - start) / experiment.interval)
+    times = np.linspace(start, experiment.stop_time, count + 1)
+    coarse, fine = (_columns(model, times, tolerance) for tolerance in REFERENCE_TOLERANCES)
+    return Simulation(
+        class_name=class_name,
+        tool=f"rumoca {version('rumoca')}",
+        tolerances=REFERENCE_TOLERANCES,
+        times=tuple(times.tolist()),
+        columns={name: tuple(values.tolist()) for name, values in fine.items()},
+        accuracy={name: float(np.abs(fine[name] - coarse[name]).max()) for name in fine},
+        parameters={p.name: float(p.value) for p in model.parameters if p.value is not None},
+    )
+
+
+def _columns(model: rumoca.Model, times: NDArray[np.float64], tolerance: float) -> dict[str, NDArray[np.float64]]:
+    """Every variable at ``times``. rumoca adds rows at its events, so rows are chosen by their time."""
+    config = rumoca.SimConfig(solver="rk-like", rtol=tolerance, atol=tolerance, max_wall_seconds=60)
+    try:
+        result = model.simulate(t=(times[0], times[-1]), dt=times[1] - times[0], config=config)
+    except rumoca.RumocaError as error:
+        raise BuildError(f"{model.name}: its simulation failed: {str(error).splitlines()[0]}") from None
+    rows = np.abs(np.asarray(result.time)[:, None] - times).argmin(axis=0)
+    if np.abs(np.asarray(result.time)[rows] - times).max() > 1e-9 * (times[-1] - times[0]):
+        raise BuildError(f"{model.name}: its simulation ended early, at {result.time[-1]:g} s")
+    return {name: np.asarray(result[name])[rows] for name in result.names}
+
+
+def _load(path: Path, class_name: str) -> tuple[rumoca.Model, Sources]:
+    """The compiled class and its Modelica text."""
+    entry = path / "package.mo" if path.is_dir() else path
+    if not entry.is_file():
+        raise BuildError(f"{entry}: no such Modelica file; give a .mo file or a library's folder with its package.mo")
+    try:
+        model = rumoca.Session().load(str(entry), model=class_name)
+        files = model.to_dict("dae")["source_map"]["files"]
+    except rumoca.RumocaError as error:
+        raise BuildError(_located_message(error, entry, class_name)) from None
+    return model, Sources({file_id: (name, text) for file_id, name, text in files}, root=entry.parent)
 
 
 def _refuse_unsupported_sections(flat: dict[str, Any], sources: Sources) -> None:

@@ -96,6 +96,20 @@ class FlatModel:
     experiment: Experiment
     documentation: str = ""  # HTML of the Documentation annotation
     icon: str = ""  # Modelica text of the Icon annotation
+    examples: tuple[str, ...] = ()  # classes with one component of this class, for reference results
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """What the front end's own simulation of a class delivers: an independent result to compare with."""
+
+    class_name: str
+    tool: str
+    tolerances: tuple[float, float]  # relative; the columns are those at the tighter one
+    times: tuple[float, ...]
+    columns: dict[str, tuple[float, ...]] = field(hash=False)  # by the name of the variable
+    accuracy: dict[str, float] = field(hash=False)  # largest distance between the results at the two tolerances
+    parameters: dict[str, float] = field(hash=False)  # those that are plain numbers
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from .compile import compile_library, named_platforms
 from .contents import SOURCES, contents
 from .equations import derive
 from .fat_mach_o import universal
-from .frontend import flatten
+from .frontend import flatten, simulate
 from .interface import expose
 from .ir import TOKEN_PLACEHOLDER
 from .jacobian import differentiate
@@ -41,7 +41,8 @@ def build(
     generated = print_c(model, jacobian, identifier)  # CSources: variables.h, model.c
     interface = expose(model, identifier)  # Interface: variables in their roles, dependencies
 
-    files = contents(flat, interface, generated, fmi)  # everything but the binaries
+    simulations = [simulate(modelica, example) for example in flat.examples]  # Simulation: another tool's results
+    files = contents(flat, interface, generated, simulations, fmi)  # everything but the binaries
     token = content_token(files).encode()
     files = {name: content.replace(TOKEN_PLACEHOLDER.encode(), token) for name, content in files.items()}
 

@@ -1,4 +1,4 @@
-"""F_pull_max: with 0 a drawbar that is pushed in never pulls; by default the damper always acts, as the paper's does."""
+"""F_pull_max: with 0 a drawbar that is pushed in never pulls; by default the damper always acts, as in the paper."""
 
 from __future__ import annotations
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 import zipfile
@@ -11,12 +12,14 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+from fmpy.ssp.ssd import read_ssv
 from fmpy.validation import validate_fmu
 from lxml import etree
 
 from fmu_build.compile import compiler
 
 VERSIONS = [2, 3]
+SSV_SCHEMA = Path("ssp", "schema", "SystemStructureParameterValues.xsd")
 FIGURE_8 = {"stop_time": 6.0, "output_interval": 0.1, "start_values": {"brake_torque": 1000.0}}
 
 
@@ -111,3 +114,48 @@ def test_terminals_and_icons_follow_their_schema(car_trailer_fmus: dict[int, Pat
         etree.XMLSchema(etree.parse(str(build_file))).assertValid(
             etree.fromstring(archive.read("sources/buildDescription.xml"))
         )
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_the_reference_results_inside_can_be_repeated(
+    car_trailer_fmus: dict[int, Path], version: int, tmp_path: Path
+) -> None:
+    """As an importer would, from the manifest alone: parameters and inputs in, outputs to the accuracy that is told."""
+    fmu = car_trailer_fmus[version]
+    folder = Path(fmpy.extract(str(fmu), unzipdir=str(tmp_path))) / "extra" / "org.fmi-standard.fmi-ls-ref"
+    related = etree.parse(str(folder / "fmi-ls-manifest.xml")).findall("Related")
+    sources = {(item.get("description").partition(":")[0], item.get("role")): item.get("source") for item in related}
+    examples = {example for example, _ in sources}
+    assert {example.rpartition(".")[2] for example in examples} == {"Figure8", "Figure10"}
+    told = (tmp_path / "documentation" / "fmi-ls-ref.txt").read_text()
+    for example in sorted(examples):
+        values = read_ssv(str(folder / sources[example, "parameter"]))
+        inputs = np.genfromtxt(folder / sources[example, "testcase"], delimiter=",", names=True)
+        expected = np.genfromtxt(folder / sources[example, "result"], delimiter=",", names=True)
+        run = fmpy.simulate_fmu(
+            str(fmu),
+            fmi_type="CoSimulation",
+            stop_time=expected["time"][-1],
+            output_interval=0.01,
+            relative_tolerance=1e-10,
+            start_values={p.name: float(p.value) for p in values.parameters},
+            input=inputs,
+            output=list(expected.dtype.names[1:]),
+        )
+        assert len(expected) == 601
+        accuracies = told.split(f"\n{example}, accuracy of each output\n")[1]
+        for name in expected.dtype.names[1:]:
+            accuracy = float(re.search(rf"  {name} +(\S+)\n", accuracies)[1])
+            digits = 1e-11 * np.abs(expected[name]).max()  # the file has twelve
+            distance = np.abs(run[name] - expected[name]).max()
+            print(f"FMI {version}, {example}, {name}: {distance:.1e}, accuracy of the reference {accuracy:.1e}")
+            assert 1e-13 < accuracy < 1e-5 and distance < accuracy + digits
+
+
+def test_the_parameter_sets_follow_their_schema(car_trailer_fmu: Path, tmp_path: Path) -> None:
+    fmpy.extract(str(car_trailer_fmu), unzipdir=str(tmp_path))
+    files = sorted(tmp_path.rglob("*.ssv"))
+    schema = etree.XMLSchema(etree.parse(str(Path(fmpy.__file__).parent / SSV_SCHEMA)))
+    for file in files:
+        schema.assertValid(etree.parse(str(file)))
+    assert len(files) == 2

@@ -37,6 +37,7 @@ equation
   connect(linkage.brake_torque, trailer.brake_torque) annotation(Line(points={{-60,-60},{-95,-60},{-95,40},{-60,40},{-60,20}}, color={0,0,127}));
   connect(brake_torque, car.brake_torque) annotation(Line(points={{40,100},{60,100},{60,20}}, color={0,0,127}));
   annotation(
+    __fmu_build(referenceExamples={"OverrunHitch.Examples.Figure8", "OverrunHitch.Examples.Figure10"}),
     experiment(StartTime=0, StopTime=6, Tolerance=1e-6, Interval=0.01),
     Icon(coordinateSystem(extent={{-100,-100},{100,100}}), graphics={
       Rectangle(extent={{0,40},{95,-20}}, lineColor={0,60,120}, fillColor={200,220,240}, fillPattern=FillPattern.Solid),
