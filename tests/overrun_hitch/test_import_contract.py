@@ -35,4 +35,4 @@ def test_parameters_see_pydantic_alone() -> None:
 
 def test_fmpy_is_kept_in_one_module() -> None:
     users = {path.stem for path in PACKAGE.glob("*.py") if any(name.startswith("fmpy") for name in imports(path.stem))}
-    assert users == {"run"}
+    assert users == {"unit"}

@@ -1,0 +1,191 @@
+"""CarTrailer.fmu opened in this process, through fmpy. The one module that touches fmpy, which has no types.
+
+fmpy's FMU2Slave is driven directly, not through simulate_fmu: so outputs are read at the start before the first step,
+the unit's own messages are caught instead of printed, and whatever ends a run, the unpacked folder goes and the working
+directory is what it was.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import tempfile
+import zipfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import numpy as np
+from fmpy.fmi1 import FMICallException, printLogMessage
+from fmpy.fmi2 import (
+    FMU2Slave,
+    fmi2CallbackFunctions,
+    fmi2CallbackLoggerTYPE,
+    fmi2OK,
+)
+from numpy.typing import NDArray
+
+from overrun_hitch.parameters import HitchError, Parameters
+from overrun_hitch.results import VARIABLES
+
+Floats = NDArray[np.float64]
+
+
+class HitchUnit:
+    """An instance of the FMU for co-simulation; from `opened_unit`, and good for any number of runs.
+
+    What the unit refuses becomes a HitchError in its own words where `opened_unit` ends.
+    """
+
+    def __init__(self, name: str, description: Any, slave: Any) -> None:
+        self.name = name
+        self.guid = str(description.guid)
+        self._slave = slave
+        self._references = {variable.name: variable.valueReference for variable in description.modelVariables}
+        self._derivatives = [unknown.variable for unknown in description.derivatives]
+        self._outputs = [self._references[name] for name in VARIABLES]
+        self._fresh = True
+
+    def start(self, parameters: Parameters, inputs: Mapping[str, float], relative_tolerance: float) -> None:
+        """From any state to t = 0 of a new run with these parameters and inputs (SI units)."""
+        if not self._fresh:
+            self._slave.reset()
+        self._fresh = False
+        self.set({**parameters.model_dump(), **inputs})
+        self._slave.setupExperiment(tolerance=relative_tolerance, startTime=0.0)
+        self._slave.enterInitializationMode()
+        self._slave.exitInitializationMode()
+
+    def set(self, values: Mapping[str, float]) -> None:
+        """Set inputs, and during a run tunable parameters, by name (SI units)."""
+        self._slave.setReal([self._references[name] for name in values], list(values.values()))
+
+    def step(self, time: float, size: float) -> None:
+        """Go on from `time` by `size`, both in s."""
+        self._slave.doStep(time, size)
+
+    def outputs(self) -> list[float]:
+        """The outputs in the order of results.VARIABLES."""
+        return list(self._slave.getReal(self._outputs))
+
+    def jacobian(self) -> tuple[list[str], Floats]:
+        """Names (n,) of the states and the derivatives (n, n) of their rates by them: the unit's directional ones."""
+        states = [rate.derivative.name for rate in self._derivatives]
+        rates = [rate.valueReference for rate in self._derivatives]
+        columns = [self._slave.getDirectionalDerivative(rates, [self._references[state]], [1.0]) for state in states]
+        return states, np.array(columns, dtype=np.float64).T
+
+
+@contextmanager
+def opened_unit(fmu: Path) -> Iterator[HitchUnit]:
+    """Unpack and instantiate the FMU file, and clean up behind.
+
+    HitchError for a file that is none, for another kind of FMU, and for whatever the FMU refuses.
+    """
+    with _unpacked(fmu) as (description, folder):
+        _check_variables(fmu, description)
+        with _instance(fmu, description, folder) as slave:
+            yield HitchUnit(fmu.name, description, slave)
+
+
+def _check_variables(fmu: Path, description: Any) -> None:
+    names = {variable.name for variable in description.modelVariables}
+    missing = [name for name in (*VARIABLES, *Parameters.model_fields, "brake_torque") if name not in names]
+    if missing:
+        raise HitchError(f"{fmu} is not a car and trailer: it has no variable {', '.join(missing)}")
+
+
+@contextmanager
+def _unpacked(fmu: Path) -> Iterator[tuple[Any, str]]:
+    """The model description of an FMU that this machine can run, and the folder it is unpacked in while needed."""
+    if not fmu.is_file():
+        raise HitchError(f"{fmu} is not there: an FMU file is needed")
+    with tempfile.TemporaryDirectory(prefix="hitch-") as folder:
+        try:
+            description = fmpy.read_model_description(str(fmu))
+            with zipfile.ZipFile(fmu) as archive:
+                names = archive.namelist()
+            fmpy.extract(str(fmu), unzipdir=folder)
+        except zipfile.BadZipFile:
+            raise HitchError(f"{fmu} is broken: an FMU is a zip archive") from None
+        except KeyError:
+            raise HitchError(f"{fmu} is broken: it has no modelDescription.xml") from None
+        except Exception as error:  # fmpy raises bare Exception, and lxml its own
+            raise HitchError(f"{fmu} is broken: {_one_line(error)}") from None
+        _check_kind(fmu, description, names)
+        yield description, folder
+
+
+def _check_kind(fmu: Path, description: Any, names: list[str]) -> None:
+    if description.fmiVersion != "2.0" or description.coSimulation is None:
+        raise HitchError(f"{fmu} has FMI {description.fmiVersion}: an FMI 2.0 unit for co-simulation is needed")
+    library = f"{description.coSimulation.modelIdentifier}{fmpy.sharedLibraryExtension}"
+    if f"binaries/{fmpy.platform}/{library}" not in names:
+        there = sorted({name.split("/")[1] for name in names if name.startswith("binaries/") and name.count("/") == 2})
+        raise HitchError(f"{fmu} has no {library} for {fmpy.platform}; it has {', '.join(there) or 'no binaries'}")
+
+
+# fmpy's native proxy, which formats messages, knows one receiver for the whole process. So ours stays for good, tells
+# runs apart by their component environment, and hands on what is not ours to fmpy's own.
+_caught: dict[int, list[str]] = {}
+
+
+def _receive(environment: int | None, instance: bytes, status: int, category: bytes, message: bytes) -> None:
+    if environment not in _caught:
+        printLogMessage(environment, instance, status, category, message)
+    elif status != fmi2OK:
+        _caught[environment].append(message.decode("utf-8", errors="replace"))
+
+
+_RECEIVER = fmi2CallbackLoggerTYPE(_receive)
+_CALLBACKS = fmi2CallbackFunctions(
+    logger=_RECEIVER,
+    allocateMemory=fmpy.fmi2.defaultCallbacks.allocateMemory,
+    freeMemory=fmpy.fmi2.defaultCallbacks.freeMemory,
+)
+try:
+    from fmpy.logging import addLoggerProxy
+
+    addLoggerProxy(ctypes.byref(_CALLBACKS))
+except (ImportError, OSError):
+    pass  # fmpy ships no proxy for this platform: messages come without their values
+
+
+@contextmanager
+def _instance(fmu: Path, description: Any, folder: str) -> Iterator[Any]:
+    """An instance of the FMU. What goes wrong in the FMU becomes a HitchError with the unit's last message."""
+    messages: list[str] = []
+    callbacks = fmi2CallbackFunctions.from_buffer_copy(_CALLBACKS)
+    callbacks.componentEnvironment = id(messages)
+    slave = _loaded(fmu, description, folder)
+    _caught[id(messages)] = messages
+    try:
+        try:
+            slave.instantiate(callbacks=callbacks)
+        except Exception as error:  # fmpy raises bare Exception
+            raise HitchError(f"{fmu} does not start: {_one_line(messages[-1] if messages else error)}") from None
+        yield slave
+    except FMICallException as error:
+        raise HitchError(f"{fmu.name}: {_one_line(messages[-1] if messages else error)}") from None
+    finally:
+        if slave.component is not None:
+            slave.freeInstance()
+        del _caught[id(messages)]
+
+
+def _loaded(fmu: Path, description: Any, folder: str) -> Any:
+    """The FMU's shared library with the functions of FMI 2.0 for co-simulation."""
+    here = os.getcwd()
+    try:
+        identifier = description.coSimulation.modelIdentifier
+        return FMU2Slave(guid=description.guid, unzipDirectory=folder, modelIdentifier=identifier)
+    except Exception as error:  # fmpy raises bare Exception
+        raise HitchError(f"{fmu} does not load: {_one_line(error)}") from None
+    finally:
+        os.chdir(here)  # fmpy changes to the library's folder to load it, and stays there if that fails
+
+
+def _one_line(message: object) -> str:
+    return " ".join(str(message).split())
