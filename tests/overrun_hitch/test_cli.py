@@ -14,6 +14,8 @@ from typer.testing import CliRunner
 
 import overrun_hitch
 from overrun_hitch import cli, fmu, terminal
+from overrun_hitch.commands.options import assignments
+from overrun_hitch.commands.run import asked_scenario
 from overrun_hitch.compare import Row
 from overrun_hitch.parameters import FIGURES, HitchError
 
@@ -139,8 +141,8 @@ def test_interrupted(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 
 
 def test_what_was_changed_is_in_the_name() -> None:
-    assert cli._scenario(None, None, []).name == "figure 8"
-    changed = cli._scenario("6a", None, ["C=200", " V_0 = 10 "], duration=2.0, brake_torque=None)
+    assert asked_scenario(None, None, {}).name == "figure 8"
+    changed = asked_scenario("6a", None, assignments(["C=200", " V_0 = 10 "]), duration=2.0, brake_torque=None)
     assert changed.name == "figure 6a, C=200, V_0=10, duration=2"
     assert changed.parameters == FIGURES["6a"].parameters.changed({"C": 200.0, "V_0": 10.0})
 

@@ -1,0 +1,1 @@
+"""One module a command: options in, exit status out. What takes long to import is imported where it is used."""
