@@ -56,7 +56,7 @@ void instance_reset(Instance *instance)
     State *s = &instance->state;
     const Use use = s->use;
     memset(s, 0, sizeof *s);
-    memset(&instance->workspace, 0, sizeof instance->workspace);
+    memset(&instance->rodas, 0, sizeof instance->rodas);
     s->use = use;
     s->phase = INSTANTIATED;
     s->tolerance = DEFAULT_TOLERANCE;

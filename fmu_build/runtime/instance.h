@@ -61,7 +61,7 @@ typedef struct {
 
 typedef struct {
     State state;
-    Workspace workspace;
+    Rodas rodas; /* room for the work inside a step: nothing in it survives the step */
     LogFunction *log;
     void *receiver;
     bool logs[N_LOG_CATEGORIES]; /* which categories the receiver gets */

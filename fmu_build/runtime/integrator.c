@@ -43,17 +43,21 @@ double integrator_allowed_error(int state, double value, double tolerance)
     return tolerance * (variable_info[FIRST_STATE + state].nominal + fabs(value));
 }
 
-/* Largest error relative to what is allowed, and the state that has it. */
-static double error_norm(const Rodas *r, double tolerance, int *worst)
+/* Of two numbers; fmax, which thinks of NaN, is a call. */
+static double larger(double a, double b) { return a > b ? a : b; }
+
+/* The error of a state relative to what is allowed. */
+static double relative_error(const Rodas *r, int state, double tolerance)
+{
+    const double value = larger(fabs(r->state[state]), fabs(r->end[state]));
+    return fabs(r->error[state]) / integrator_allowed_error(state, value, tolerance);
+}
+
+static double error_norm(const Rodas *r, double tolerance)
 {
     double norm = 0.0;
     for (int i = 0; i < N_STATES; i++) {
-        const double allowed = integrator_allowed_error(i, fmax(fabs(r->state[i]), fabs(r->end[i])), tolerance);
-        const double error = fabs(r->error[i]) / allowed;
-        if (error > norm) {
-            norm = error;
-            *worst = i;
-        }
+        norm = larger(relative_error(r, i, tolerance), norm);
     }
     return norm;
 }
@@ -100,13 +104,17 @@ static double elementary(double length, double error)
  * to rise on. A step that was cut short may lengthen the next one, but shortens it only if its error says so. */
 static void learn(Integrator *m, double length, double error, bool rejected)
 {
+    const double limit = rejected ? length : MAX_GROWTH * length;
+    const bool cut = length < 0.99 * m->length;
+    if (cut && limit <= m->length && error <= TELLING_ERROR) { /* so it does neither: spare the powers */
+        m->error_constant = 0.0;
+        return;
+    }
     const double constant = error / pow(length, ERROR_ORDER);
     double best = elementary(length, error);
     if (m->error_constant > 0.0 && constant > m->error_constant && error > TELLING_ERROR) {
         best *= fmax(0.5, pow(m->error_constant / constant, 1.0 / ERROR_ORDER));
     }
-    const double limit = rejected ? length : MAX_GROWTH * length;
-    const bool cut = length < 0.99 * m->length;
     if (!cut) {
         m->length = fmax(MAX_SHRINK * length, fmin(best, limit));
     } else if (best > m->length) {
@@ -125,24 +133,33 @@ static bool explain_start(const Rodas *r, int state, Message *why)
     return false;
 }
 
-static bool explain_collapse(const Rodas *r, int not_finite, int worst, Message *why)
+static int worst_state(const Rodas *r, double tolerance)
+{
+    int worst = 0;
+    for (int i = 1; i < N_STATES; i++) {
+        worst = relative_error(r, i, tolerance) > relative_error(r, worst, tolerance) ? i : worst;
+    }
+    return worst;
+}
+
+static bool explain_collapse(const Rodas *r, int not_finite, double tolerance, Message *why)
 {
     const bool finite = not_finite == FINITE;
+    const int state = finite ? worst_state(r, tolerance) : not_finite;
     message_write(why, "no step can be made from t = %s, however small: %s %s", quantity(r->time, "s").text,
                   finite ? "the largest error is that of" : "not finite is the derivative of",
-                  N_STATES > 0 ? variable_info[FIRST_STATE + (finite ? worst : not_finite)].name : "nothing");
+                  N_STATES > 0 ? variable_info[FIRST_STATE + state].name : "nothing");
     return false;
 }
 
 /* Shorten a trial until its error is allowed. */
-static bool accept(Integrator *m, Workspace *w, const bool holds[], double *length, double tolerance, bool *rejected,
-                   double shortest, double *error, Message *why)
+static bool accept(Integrator *m, Rodas *r, Variables *v, const bool holds[], double *length, double tolerance,
+                   bool *rejected, double shortest, double *error, Message *why)
 {
-    int worst = 0;
     for (;;) {
-        const int not_finite = rodas_try(&w->rodas, *length, &w->v, holds);
+        const int not_finite = rodas_try(r, *length, v, holds);
         m->counters.evaluations += RODAS_STAGES - 1;
-        *error = not_finite == FINITE ? error_norm(&w->rodas, tolerance, &worst) : (double)INFINITY;
+        *error = not_finite == FINITE ? error_norm(r, tolerance) : (double)INFINITY;
         if (*error <= 1.0) {
             return true;
         }
@@ -152,7 +169,7 @@ static bool accept(Integrator *m, Workspace *w, const bool holds[], double *leng
         *length = fmax(MAX_SHRINK * *length, shrunk);
         m->length = *length;
         if (*length < shortest) {
-            return explain_collapse(&w->rodas, not_finite, worst, why);
+            return explain_collapse(r, not_finite, tolerance, why);
         }
     }
 }
@@ -168,10 +185,9 @@ static void arrive_at_end(Integrator *m, const Rodas *r, const bool holds[], dou
 }
 
 /* Time moves on by an event, be it by the least possible amount, unless it lies exactly at the start. */
-static bool arrive_at_event(Integrator *m, Workspace *w, const Event *event, double target, Point *arrival,
-                            Message *why)
+static bool arrive_at_event(Integrator *m, const Rodas *r, Variables *v, const Event *event, double target,
+                            Point *arrival, Message *why)
 {
-    const Rodas *r = &w->rodas;
     m->counters.events++;
     integrator_discontinuity(m);
     memcpy(arrival->holds, event->truths, sizeof arrival->holds);
@@ -184,53 +200,52 @@ static bool arrive_at_event(Integrator *m, Workspace *w, const Event *event, dou
     }
     m->counters.steps++;
     arrival->time = fmin(target, fmax(r->time + event->fraction * r->length, nextafter(r->time, target)));
-    w->v.time = arrival->time;
-    ramp_apply(r->ramp, &w->v);
-    memcpy(&w->v.at[FIRST_STATE], arrival->state, N_STATES * sizeof(double));
-    return events_settle(&w->v, arrival->holds, why);
+    v->time = arrival->time;
+    ramp_apply(r->ramp, v);
+    memcpy(&v->at[FIRST_STATE], arrival->state, N_STATES * sizeof(double));
+    return events_settle(v, arrival->holds, why);
 }
 
-static bool start(Integrator *m, Workspace *w, const Variables *v, const bool holds[], const Ramp *ramp,
-                  double tolerance, Message *why)
+static bool start(Integrator *m, Rodas *r, Variables *v, const bool holds[], const Ramp *ramp, double tolerance,
+                  Message *why)
 {
-    w->v = *v;
     m->counters.evaluations++;
     m->counters.jacobians++;
-    const int not_finite = rodas_start(&w->rodas, &w->v, holds, ramp);
+    const int not_finite = rodas_start(r, v, holds, ramp);
     if (not_finite != FINITE) {
-        return explain_start(&w->rodas, not_finite, why);
+        return explain_start(r, not_finite, why);
     }
     if (m->length <= 0.0) {
-        m->length = first_length(&w->rodas, tolerance);
+        m->length = first_length(r, tolerance);
     } else if (m->restart) {
-        m->length = fmin(m->length, CAUTION * first_length(&w->rodas, tolerance));
+        m->length = fmin(m->length, CAUTION * first_length(r, tolerance));
     }
     m->restart = false;
     return true;
 }
 
-bool integrator_step(Integrator *m, Workspace *w, const Variables *v, const bool holds[], const Ramp *ramp,
-                     double target, double tolerance, Point *arrival, Message *why)
+bool integrator_step(Integrator *m, Rodas *r, Variables *v, const bool holds[], const Ramp *ramp, double target,
+                     double tolerance, Point *arrival, Message *why)
 {
-    if (!start(m, w, v, holds, ramp, tolerance, why)) {
+    if (!start(m, r, v, holds, ramp, tolerance, why)) {
         return false;
     }
-    const double remaining = target - v->time;
-    const bool leaving = !(m->has_left_surface && m->left_surface == v->time);
+    const double remaining = target - r->time;
+    const bool leaving = !(m->has_left_surface && m->left_surface == r->time);
     double length = fit(m->length, remaining);
-    const double shortest = fmax(SHORTEST, 4.0 * DBL_EPSILON * fmax(fabs(v->time), length));
+    const double shortest = fmax(SHORTEST, 4.0 * DBL_EPSILON * fmax(fabs(r->time), length));
     double error = 0.0;
     bool rejected = false;
     bool found = false;
     Event event;
     for (int repeat = 0;; repeat++) {
-        if (!accept(m, w, holds, &length, tolerance, &rejected, shortest, &error, why)) {
+        if (!accept(m, r, v, holds, &length, tolerance, &rejected, shortest, &error, why)) {
             return false;
         }
         if (N_RELATIONS > 0) {
-            rodas_bend(&w->rodas);
+            rodas_bend(r);
         }
-        found = events_find(&w->rodas, &w->v, holds, leaving, &event);
+        found = events_find(r, v, holds, leaving, &event);
         if (!found || event.fraction < NEAR_START || event.fraction > NEAR_END || repeat == MAX_REPEATS) {
             break;
         }
@@ -239,8 +254,8 @@ bool integrator_step(Integrator *m, Workspace *w, const Variables *v, const bool
     }
     learn(m, length, error, rejected);
     if (found) {
-        return arrive_at_event(m, w, &event, target, arrival, why);
+        return arrive_at_event(m, r, v, &event, target, arrival, why);
     }
-    arrive_at_end(m, &w->rodas, holds, target, remaining, arrival);
+    arrive_at_end(m, r, holds, target, remaining, arrival);
     return true;
 }

@@ -35,19 +35,14 @@ typedef struct {
     bool event; /* some truths have changed; time may be that of the start */
 } Point;
 
-/* Room for the work inside a step; nothing in it survives the step. */
-typedef struct {
-    Rodas rodas;
-    Variables v;
-} Workspace;
-
 /* Something has changed at once (an input, a parameter, a truth): what was learned about the error may not hold. */
 void integrator_discontinuity(Integrator *m);
 
 /* One accepted step from the point in v, at most to target, at most to the next event; the ramp moves the inputs.
- * False: no step can be made. */
-bool integrator_step(Integrator *m, Workspace *w, const Variables *v, const bool holds[], const Ramp *ramp,
-                     double target, double tolerance, Point *arrival, Message *why);
+ * False: no step can be made. v serves as working space, and is left somewhere in the step: rodas_back(r, v) leads back
+ * to its start. */
+bool integrator_step(Integrator *m, Rodas *r, Variables *v, const bool holds[], const Ramp *ramp, double target,
+                     double tolerance, Point *arrival, Message *why);
 
 /* The error of a state's value that the tolerance allows. */
 double integrator_allowed_error(int state, double value, double tolerance);

@@ -2,6 +2,7 @@
 #ifndef RODAS_H
 #define RODAS_H
 
+#include "finite.h"
 #include "model.h"
 #include "ramp.h"
 #include "rodas5p.h"
@@ -24,13 +25,16 @@ typedef struct {
     Vector bend[RODAS_DENSE]; /* after rodas_bend */
 } Rodas;
 
-enum { FINITE = -1 }; /* otherwise: the index of the first state whose derivative, or whose value, is not finite */
-
 /* Fix the start of a step at the time and the states in v: evaluates the derivatives and the Jacobian there, once for
- * all trials of the step. The ramp, which moves the inputs, has to live as long. Returns FINITE or an index. */
+ * all trials of the step. The ramp, which moves the inputs, has to live as long. Returns FINITE, or the index of the
+ * first state whose derivative is not finite. */
 int rodas_start(Rodas *r, Variables *v, const bool holds[], const Ramp *ramp);
 
-/* Try a length. v serves as working space (its inputs and parameters are read). Returns FINITE or an index. */
+/* v back to the start of the step. */
+void rodas_back(const Rodas *r, Variables *v);
+
+/* Try a length. v serves as working space (its inputs and parameters are read). Returns FINITE, or the
+ * index of the first state whose derivative, or whose value, is not finite. */
 int rodas_try(Rodas *r, double length, Variables *v, const bool holds[]);
 
 /* Prepare rodas_dense for the last trial. */

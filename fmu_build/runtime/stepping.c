@@ -45,7 +45,6 @@ static void commit(State *s, const Point *arrival, bool waits)
     if (!waits) {
         memcpy(s->holds, arrival->holds, sizeof s->holds);
     }
-    s->current = false;
 }
 
 /* The end that the caller wants, seen at an intermediate point. */
@@ -58,30 +57,41 @@ static double intermediate(Instance *instance, const StepOptions *options)
     return options->may_return_early ? fmax(end, s->v.time) : (double)INFINITY;
 }
 
+/* One integrator step. If none can be made, why, and the instance stays where it is. */
+static bool advance(Instance *instance, double target, bool events_wait, Message *why)
+{
+    State *s = &instance->state;
+    Point arrival;
+    s->current = false;
+    bool fine = integrator_step(&s->integrator, &instance->rodas, &s->v, s->holds, &s->ramp, target, s->tolerance,
+                                &arrival, why) &&
+                valid_states(&arrival, s->tolerance, why);
+    if (fine && arrival.event) {
+        log_events(instance, &arrival);
+        fine = !events_too_dense(&s->density, arrival.time, s->holds, arrival.holds, why);
+    }
+    if (!fine) {
+        rodas_back(&instance->rodas, &s->v);
+        return false;
+    }
+    commit(s, &arrival, arrival.event && events_wait);
+    return true;
+}
+
 static bool integrate(Instance *instance, double target, const StepOptions *options, Message *why)
 {
     State *s = &instance->state;
     const bool events_wait = s->use == CO_SIMULATION_WITH_EVENTS && options->may_return_early;
     for (int steps = 0; s->v.time < target && !s->event_waits; steps++) {
-        Point arrival;
         const double start = s->v.time;
         if (steps == MAX_STEPS) {
             message_write(why, "%d integrator steps have led from the communication point to t = %s only", MAX_STEPS,
                           quantity(start, "s").text);
             return false;
         }
-        if (!integrator_step(&s->integrator, &instance->workspace, &s->v, s->holds, &s->ramp, target, s->tolerance,
-                             &arrival, why) ||
-            !valid_states(&arrival, s->tolerance, why)) {
+        if (!advance(instance, target, events_wait, why)) {
             return false;
         }
-        if (arrival.event) {
-            log_events(instance, &arrival);
-            if (events_too_dense(&s->density, arrival.time, s->holds, arrival.holds, why)) {
-                return false;
-            }
-        }
-        commit(s, &arrival, arrival.event && events_wait);
         if (options->intermediate != NULL && s->v.time > start) {
             target = fmin(target, intermediate(instance, options));
         }

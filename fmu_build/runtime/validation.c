@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "finite.h"
+
 static const double LOOSEST_TOLERANCE = 1e-2;
 static const double TIGHTEST_TOLERANCE = 1e-12;
 
@@ -171,10 +173,6 @@ bool valid_states(const Point *p, double tolerance, Message *why)
 
 bool valid_variables(const Variables *v, Message *why)
 {
-    for (int i = 0; i < N_VARIABLES; i++) {
-        if (!isfinite(v->at[i])) {
-            return valid_result((unsigned)i, v->at[i], v->time, why);
-        }
-    }
-    return true;
+    const int bad = first_not_finite(v->at, N_VARIABLES);
+    return bad == FINITE || valid_result((unsigned)bad, v->at[bad], v->time, why);
 }
