@@ -33,8 +33,8 @@ int rodas_start(Rodas *r, Variables *v, const bool holds[], const Ramp *ramp);
 /* v back to the start of the step. */
 void rodas_back(const Rodas *r, Variables *v);
 
-/* Try a length. v serves as working space (its inputs and parameters are read). Returns FINITE, or the
- * index of the first state whose derivative, or whose value, is not finite. */
+/* Try a length. v serves as working space (its inputs and parameters are read). Returns FINITE, or the index of the
+ * first state whose derivative, or whose value, is not finite. */
 int rodas_try(Rodas *r, double length, Variables *v, const bool holds[]);
 
 /* Prepare rodas_dense for the last trial. */
