@@ -7,6 +7,7 @@ package Units "Physical quantities with their units and admissible ranges"
   type Length = Real(final quantity="Length", final unit="m") "Length";
   type Velocity = Real(final quantity="Velocity", final unit="m/s", nominal=1) "Velocity";
   type Acceleration = Real(final quantity="Acceleration", final unit="m/s2") "Acceleration";
+  constant Acceleration g_n = 9.80665 "Standard acceleration of free fall";
   type AngularVelocity = Real(final quantity="AngularVelocity", final unit="rad/s", nominal=3) "Angular velocity";
   type Force = Real(final quantity="Force", final unit="N") "Force";
   type Torque = Real(final quantity="Torque", final unit="N.m") "Torque";
@@ -14,6 +15,7 @@ package Units "Physical quantities with their units and admissible ranges"
   type Damping = Real(final quantity="TranslationalDampingConstant", final unit="N.s/m", min=0) "Damper coefficient";
   type SlipStiffness = Real(final quantity="Force", final unit="N", min=1) "Tyre force per unit slip";
   type TorquePerLength = Real(final quantity="TorquePerLength", final unit="N.m/m", min=0) "Torque per unit length";
+  type Grade = Real(final quantity="Grade", final unit="1") "Rise of the road over its horizontal run";
   type Slip = Real(final quantity="Slip", final unit="1") "Longitudinal slip";
   annotation(
     Icon(coordinateSystem(extent={{-100,-100},{100,100}}), graphics={

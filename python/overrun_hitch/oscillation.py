@@ -41,7 +41,16 @@ class Oscillation:
 
     def offset_of(self, time: Floats, trace: Floats) -> float:
         """Offset of another trace (n,) of the same motion at the same `time` (n,), in that trace's unit."""
-        return float(np.linalg.lstsq(_basis(_window(time), np.array(self._unknowns)), trace, rcond=None)[0][0])
+        return float(self._coefficients(time, trace)[0])
+
+    def amplitude_of(self, time: Floats, trace: Floats) -> complex:
+        """Complex amplitude of another trace (n,) of the same motion: ratios between traces are the mode's shape."""
+        _, cosine, sine = self._coefficients(time, trace)
+        return complex(cosine, -sine)
+
+    def _coefficients(self, time: Floats, trace: Floats) -> Floats:
+        basis = _basis(_window(time), np.array(self._unknowns))
+        return np.asarray(np.linalg.lstsq(basis, trace, rcond=None)[0])
 
 
 @dataclass(frozen=True)

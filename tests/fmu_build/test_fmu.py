@@ -29,7 +29,7 @@ def test_the_names_that_users_see(car_trailer_fmu: Path) -> None:
         kind: [v.name for v in description.modelVariables if v.causality == kind]
         for kind in ("input", "output", "parameter")
     }
-    assert by_causality == {"input": ["brake_torque"], "output": OUTPUTS, "parameter": PARAMETERS}
+    assert by_causality == {"input": ["brake_torque", "grade"], "output": OUTPUTS, "parameter": PARAMETERS}
     assert all(len(v.name) <= 55 for v in description.modelVariables)
 
 
@@ -56,6 +56,7 @@ def test_dependencies_are_those_of_the_equations(car_trailer_fmu: Path) -> None:
     assert depends["slip_trailer"] == {"trailer.body.v", "trailer.wheel.omega"}
     assert depends["compression"] == {"drawbar.compression"}
     assert all("brake_torque" not in names for names in depends.values())  # no direct feedthrough
+    assert {name for name, names in depends.items() if "grade" in names} == {"a_car", "a_trailer"}
     rates = {u.variable.name: {v.name for v in u.dependencies} for u in description.derivatives}
     assert "brake_torque" in rates["der(car.wheel.omega)"]
 

@@ -8,10 +8,12 @@ model BrakedVehicle "Rigid body on one lumped braked wheel with a slip tyre"
   parameter Units.Position x_0 = 0 "Position at the start";
   Interfaces.Flange hitch "Where the drawbar is attached" annotation(Placement(transformation(extent={{-110,-10},{-90,10}})));
   Interfaces.TorqueInput brake_torque "Brake torque on the lumped wheels" annotation(Placement(transformation(extent={{-20,80},{20,120}}, rotation=-90)));
+  Interfaces.AccelerationInput g_x "Gravity along the road, positive forward" annotation(Placement(transformation(extent={{-120,40},{-80,80}})));
   Body body(M=M, x(start=x_0), v(start=V_0)) "Body" annotation(Placement(transformation(extent={{-20,20},{20,60}})));
   Tyre tyre(C_k=C_k, R=R) "Tyre" annotation(Placement(transformation(extent={{-20,-40},{20,0}})));
   Wheel wheel(I=I, omega(start=V_0/R)) "Wheel, rolling without slip at the start" annotation(Placement(transformation(extent={{40,-40},{80,0}})));
 equation
+  connect(g_x, body.g_x) annotation(Line(points={{-100,60},{-60,60},{-60,52},{-20,52}}, color={0,0,127}));
   connect(hitch, body.hitch) annotation(Line(points={{-100,0},{-60,0},{-60,40},{-20,40}}, color={0,127,0}));
   connect(body.axle, tyre.axle) annotation(Line(points={{0,20},{0,0}}, color={0,127,0}));
   connect(tyre.hub, wheel.hub) annotation(Line(points={{0,-20},{0,-60},{60,-60},{60,-40}}, color={95,95,95}));

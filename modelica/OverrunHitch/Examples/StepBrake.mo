@@ -4,6 +4,7 @@ partial model StepBrake "Car and trailer, braked by a step of torque on the car'
   Systems.CarTrailer combination "Car and trailer" annotation(Placement(transformation(extent={{-40,-40},{40,40}})));
 equation
   combination.brake_torque = tau_c;
+  combination.grade = 0;
   annotation(
     Icon(coordinateSystem(extent={{-100,-100},{100,100}}), graphics={
       Ellipse(extent={{-100,100},{100,-100}}, lineColor={60,60,60}, fillColor={255,255,255}, fillPattern=FillPattern.Solid),

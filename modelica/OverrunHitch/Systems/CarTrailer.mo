@@ -17,6 +17,7 @@ model CarTrailer "Car and trailer with an overrun brake (Sharp 1982)"
   parameter Units.Velocity V_0(min=0.1) = 40 "Speed of both vehicles at the start";
   parameter Units.Length compression_start = 0 "Drawbar compression at the start";
   Interfaces.TorqueInput brake_torque(min=0) "Brake torque on the car's lumped wheels" annotation(Placement(transformation(extent={{20,80},{60,120}}, rotation=-90)));
+  Interfaces.GradeInput grade "Road grade, rise over horizontal run, positive uphill" annotation(Placement(transformation(extent={{-140,60},{-100,100}})));
   output Units.Velocity v_car = car.body.v "Speed of the car, positive forward";
   output Units.Velocity v_trailer = trailer.body.v "Speed of the trailer, positive forward";
   output Units.Acceleration a_car = car.body.a "Acceleration of the car, positive forward";
@@ -29,8 +30,12 @@ model CarTrailer "Car and trailer with an overrun brake (Sharp 1982)"
   Components.BrakedVehicle car(M=M_c, I=I_c, R=R_c, C_k=C_kc, V_0=V_0, final x_0=0) "Car" annotation(Placement(transformation(extent={{40,-20},{80,20}})));
   Components.BrakedVehicle trailer(M=M_t, I=I_t, R=R_t, C_k=C_kt, V_0=V_0, x_0=compression_start) "Trailer" annotation(Placement(transformation(extent={{-80,-20},{-40,20}})));
   Components.Drawbar drawbar(k=k, k_t=k_t, C=C, eps=eps, F_pull_max=F_pull_max) "Drawbar" annotation(Placement(transformation(extent={{-20,-20},{20,20}})));
+  Components.Road road "Road" annotation(Placement(transformation(extent={{-80,70},{-60,90}})));
   Components.BrakeLinkage linkage(r=r, eps=eps) "Linkage from drawbar to trailer brakes" annotation(Placement(transformation(extent={{-20,-70},{-60,-50}})));
 equation
+  connect(grade, road.grade) annotation(Line(points={{-120,80},{-80,80}}, color={0,0,127}));
+  connect(road.g_x, trailer.g_x) annotation(Line(points={{-60,80},{-50,80},{-50,60},{-84,60},{-84,12},{-80,12}}, color={0,0,127}));
+  connect(road.g_x, car.g_x) annotation(Line(points={{-60,80},{34,80},{34,12},{40,12}}, color={0,0,127}));
   connect(drawbar.front, car.hitch) annotation(Line(points={{20,0},{40,0}}, color={0,127,0}));
   connect(drawbar.rear, trailer.hitch) annotation(Line(points={{-20,0},{-30,0},{-30,30},{-90,30},{-90,0},{-80,0}}, color={0,127,0}));
   connect(drawbar.compression, linkage.compression) annotation(Line(points={{0,-20},{0,-60},{-20,-60}}, color={0,0,127}));
@@ -53,7 +58,8 @@ equation
 <p>Positions, speeds and accelerations are positive forward, so braking gives negative accelerations.
 <code>compression</code> is <code>x_t - x_c</code>, positive when the drawbar is pushed in. <code>F_hitch</code> is the
 force on the car, positive forward: a pushing trailer gives a positive value; it is minus the paper's F_h, which is
-positive in tension. Slips and brake torques are positive when they brake a vehicle that rolls forward.</p>
+positive in tension. <code>grade</code> is positive uphill. Slips and brake torques are positive when they brake a
+vehicle that rolls forward.</p>
 <h2>Parameters</h2>
 <p>Masses, inertias, radii and tyre stiffnesses are the datum of the paper's section 7; <code>k</code> and <code>r</code>
 those of its case ii (section 8.1); <code>k_t = 100 k</code> that of figures 6a and 7 to 11. <code>V_0</code> and
@@ -61,8 +67,8 @@ those of its case ii (section 8.1); <code>k_t = 100 k</code> that of figures 6a 
 <code>F_pull_max = 0</code> the damper never makes a compressed drawbar pull, nor one at its stop push; the default is
 beyond any damper's force.</p>
 <h2>Limits</h2>
-<p>Forward driving above 0.1 m/s (the tyre law divides by the speed), slip up to about 0.1, level road, no drag, brakes
-that are torques and not friction.</p>
+<p>Forward driving above 0.1 m/s (the tyre law divides by the speed), slip up to about 0.1, no drag, brakes that are
+torques and not friction. The paper's road is level: <code>grade = 0</code>.</p>
 <h2>Source</h2>
 <p>R. S. Sharp, <em>Longitudinal Oscillations of Vehicle/Trailer Combinations Induced by Overrun Braking</em>, Vehicle
 System Dynamics 11:1 (1982) 43-61, <a href=\"https://doi.org/10.1080/00423118208968687\">doi
