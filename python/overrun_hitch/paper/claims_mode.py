@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-
 import numpy as np
 
 from overrun_hitch.paper.claim import Claim, Part, above, below, near, rounds_to

@@ -10,6 +10,7 @@ import xarray as xr
 
 from overrun_hitch.compare import compare
 from overrun_hitch.linearisation import Linearisation, at_steady_braking, at_zero_slip
+from overrun_hitch.paper.beyond import Boundary, Motion, boundary, motions
 from overrun_hitch.paper.curves import CURVES, Locus, V, locus
 from overrun_hitch.parameters import CASES, FIGURES, Parameters, Scenario
 from overrun_hitch.run import Settings, brake, car_alone
@@ -53,6 +54,8 @@ class Study:
     steady_fmu: Mapping[str, SteadyState]
     at_zero_slip: Mapping[str, Linearisation]  # cases
     at_braking: Linearisation  # case ii, figure 8
+    boundary: Boundary
+    motions: tuple[Motion, ...]  # with clearance, at held speed
 
 
 def study(fmu: Path, progress: Callable[[str], object] = lambda _: None) -> Study:
@@ -73,6 +76,8 @@ def study(fmu: Path, progress: Callable[[str], object] = lambda _: None) -> Stud
         progress("linearisation")
         engaged = {name: at_zero_slip(unit, case.changed({"C": DAMPED}), V) for name, case in CASES.items()}
         braking = at_steady_braking(unit, FIGURES["8"].parameters, V, BRAKE_TORQUE)
+        progress("boundary of self-excitation")
+        chart = boundary(unit)
         return Study(
             fmu=unit.name,
             guid=unit.guid,
@@ -84,6 +89,8 @@ def study(fmu: Path, progress: Callable[[str], object] = lambda _: None) -> Stud
             steady_fmu=steady_fmu,
             at_zero_slip=engaged,
             at_braking=braking,
+            boundary=chart,
+            motions=motions(unit, progress),
         )
 
 

@@ -1,0 +1,111 @@
+"""What the paper could not show: the boundary of self-excitation as a chart, and limit cycles with clearance."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from overrun_hitch.boundary import critical_damping
+from overrun_hitch.describing_function import Cycle, predicted_cycles
+from overrun_hitch.free_vibration import measured_mode
+from overrun_hitch.limit_cycle import Sustained, sustained_motion, weight_push
+from overrun_hitch.parameters import CASES, DATUM, Parameters
+from overrun_hitch.unit import HitchUnit
+
+Floats = NDArray[np.float64]
+
+DEFLECTION = 0.01  # m for 1 m/s2 of deceleration: how the paper's section 8.1 chooses k
+SPEEDS = np.linspace(5.0, 45.0, 17)  # m/s
+RATIOS = np.linspace(0.5, 10.0, 20)  # r/k in m
+CHECKED_SPEEDS = (10.0, 20.0, 40.0)
+CHECKED_RATIOS = (1.225, 2.975, 8.23)  # cases i, ii, iii
+BESIDE = 0.1  # of C_crit: how far from the boundary the FMU is asked
+
+CYCLE_SPEED = 40.0  # m/s
+CYCLE_GRADE = -0.1
+CYCLE_DAMPERS = (40.0, 60.0, 80.0, 100.0, 110.0, 130.0)  # N.s/m
+CYCLE_CLEARANCES = (0.0, 0.02, 0.05, 0.1)  # m
+SMALL = 0.3  # of the steady compression: where a motion starts if no cycle is predicted
+
+
+def designed(ratio: float) -> Parameters:
+    """The datum with this r/k (m), and k such that the drawbar deflects by 1 cm for 1 m/s2 (equation 15)."""
+    trailer = DATUM.M_t + DATUM.I_t / DATUM.R_t**2
+    k = trailer / (DEFLECTION * (1.0 + ratio / DATUM.R_t))
+    return DATUM.changed({"k": k, "r": ratio * k})
+
+
+@dataclass(frozen=True)
+class Check:
+    """The FMU on both sides of the boundary."""
+
+    V: float  # m/s
+    ratio: float  # r/k in m
+    C_crit: float  # N.s/m
+    growth_below: float  # 1/s, at (1 - BESIDE) C_crit
+    growth_above: float  # 1/s, at (1 + BESIDE) C_crit
+
+    @property
+    def holds(self) -> bool:
+        """Growing with less damping than C_crit, decaying with more."""
+        return self.growth_below > 0.0 > self.growth_above
+
+
+@dataclass(frozen=True)
+class Boundary:
+    """C_crit (n, m) in N.s/m by the linear module at `speeds` (n,) in m/s and `ratios` (m,) r/k in m, and checks."""
+
+    speeds: Floats
+    ratios: Floats
+    C_crit: Floats
+    checks: tuple[Check, ...]
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What became of an oscillation with clearance at held speed, predicted and on the FMU."""
+
+    C: float  # N.s/m
+    eps: float  # m
+    steady: float  # m, the steady compression beyond eps
+    predicted: Cycle | None  # the smallest stable one
+    fmu: Sustained
+
+
+def boundary(unit: HitchUnit) -> Boundary:
+    """The chart and its checks."""
+    C_crit = np.array([[critical_damping(designed(ratio), V) for ratio in RATIOS] for V in SPEEDS])
+    checks = tuple(_check(unit, V, ratio) for V in CHECKED_SPEEDS for ratio in CHECKED_RATIOS)
+    return Boundary(SPEEDS, RATIOS, C_crit, checks)
+
+
+def _check(unit: HitchUnit, V: float, ratio: float) -> Check:
+    parameters = designed(ratio)
+    C_crit = critical_damping(parameters, V)
+    below, above = (
+        measured_mode(unit, parameters.changed({"C": factor * C_crit}), V).growth_rate
+        for factor in (1.0 - BESIDE, 1.0 + BESIDE)
+    )
+    return Check(V, ratio, C_crit, below, above)
+
+
+def motions(unit: HitchUnit, progress: Callable[[str], object]) -> tuple[Motion, ...]:
+    """Case ii downhill at held speed, over C and eps."""
+    found = []
+    for eps in CYCLE_CLEARANCES:
+        progress(f"limit cycles: clearance {eps:g} m")
+        found += [_motion(unit, CASES["ii"].changed({"C": C, "eps": eps})) for C in CYCLE_DAMPERS]
+    return tuple(found)
+
+
+def _motion(unit: HitchUnit, parameters: Parameters) -> Motion:
+    push = weight_push(parameters, CYCLE_GRADE)
+    steady = push / (parameters.k + parameters.r / parameters.R_t)
+    stable = (cycle for cycle in predicted_cycles(parameters, CYCLE_SPEED, push) if cycle.is_stable)
+    predicted = next(stable, None)
+    start = SMALL * steady if predicted is None else predicted.amplitude
+    fmu = sustained_motion(unit, parameters, CYCLE_SPEED, CYCLE_GRADE, start)
+    return Motion(parameters.C, parameters.eps, steady, predicted, fmu)
