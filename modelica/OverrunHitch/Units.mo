@@ -11,6 +11,8 @@ package Units "Physical quantities with their units and admissible ranges"
   type AngularVelocity = Real(final quantity="AngularVelocity", final unit="rad/s", nominal=3) "Angular velocity";
   type Force = Real(final quantity="Force", final unit="N") "Force";
   type Torque = Real(final quantity="Torque", final unit="N.m") "Torque";
+  type Impulse = Real(final quantity="Impulse", final unit="N.s", nominal=100) "Impulse";
+  type Energy = Real(final quantity="Energy", final unit="J", nominal=1000) "Energy";
   type Stiffness = Real(final quantity="TranslationalSpringConstant", final unit="N/m", min=0) "Stiffness";
   type Damping = Real(final quantity="TranslationalDampingConstant", final unit="N.s/m", min=0) "Damper coefficient";
   type SlipStiffness = Real(final quantity="Force", final unit="N", min=1) "Tyre force per unit slip";

@@ -1,0 +1,60 @@
+within OverrunHitch.Systems;
+model Trailer "Trailer with an overrun brake behind somebody else's car (Sharp 1982)"
+  parameter Units.Mass M_t = 500 "Mass of the trailer";
+  parameter Units.MomentOfInertia I_t = 2.5 "Inertia of the trailer's lumped wheels";
+  parameter Units.Radius R_t = 0.35 "Wheel radius of the trailer";
+  parameter Units.SlipStiffness C_kt = 200000 "Tyre force per unit slip, trailer";
+  parameter Units.Stiffness k = 5480 "Drawbar stiffness in compression";
+  parameter Units.Stiffness k_t = 548000 "Drawbar stiffness in tension";
+  parameter Units.Damping C = 500 "Drawbar damper coefficient";
+  parameter Units.TorquePerLength r = 16303 "Trailer brake torque per unit of drawbar compression (2.975 m times k)";
+  parameter Units.Length eps(min=0) = 0 "Drawbar clearance (backlash)";
+  parameter Units.Force F_pull_max(min=0) = 1e9 "Largest pull of the damper in a drawbar that is pushed in: 0 for none; the paper's damper has no limit";
+  parameter Units.Velocity V_0(min=0.1) = 40 "Speed of the trailer at the start; v_car is expected to be the same";
+  parameter Units.Length compression_start = 0 "Drawbar compression at the start";
+  Interfaces.VelocityInput v_car(start=40) "Speed of the tow ball along the road, positive forward" annotation(Placement(transformation(extent={{140,-20},{100,20}})));
+  Interfaces.GradeInput grade "Road grade, rise over horizontal run, positive uphill" annotation(Placement(transformation(extent={{-140,60},{-100,100}})));
+  output Units.Force F_hitch = ball.F "Hitch force on the car, positive forward: a pushing trailer gives a positive value";
+  output Units.Length compression = drawbar.compression "Drawbar compression x_t - x_c, positive when pushed in";
+  output Units.Velocity v_rel = drawbar.v_rel "Rate of compression";
+  output Units.Velocity v_trailer = trailer.body.v "Speed of the trailer, positive forward";
+  output Units.Acceleration a_trailer = trailer.body.a "Acceleration of the trailer, positive forward";
+  output Units.Slip slip_trailer = trailer.tyre.slip "Longitudinal slip of the trailer's wheels, positive when braking";
+  output Units.Torque trailer_brake_torque = linkage.brake_torque "Brake torque on the trailer's lumped wheels";
+  Components.TowBall ball "Tow ball" annotation(Placement(transformation(extent={{40,-20},{80,20}})));
+  Components.BrakedVehicle trailer(M=M_t, I=I_t, R=R_t, C_k=C_kt, V_0=V_0, x_0=compression_start) "Trailer" annotation(Placement(transformation(extent={{-80,-20},{-40,20}})));
+  Components.Drawbar drawbar(k=k, k_t=k_t, C=C, eps=eps, F_pull_max=F_pull_max) "Drawbar" annotation(Placement(transformation(extent={{-20,-20},{20,20}})));
+  Components.Road road "Road" annotation(Placement(transformation(extent={{-80,70},{-60,90}})));
+  Components.BrakeLinkage linkage(r=r, eps=eps) "Linkage from drawbar to trailer brakes" annotation(Placement(transformation(extent={{-20,-70},{-60,-50}})));
+equation
+  connect(v_car, ball.v) annotation(Line(points={{120,0},{80,0}}, color={0,0,127}));
+  connect(grade, road.grade) annotation(Line(points={{-120,80},{-80,80}}, color={0,0,127}));
+  connect(road.g_x, trailer.g_x) annotation(Line(points={{-60,80},{-50,80},{-50,60},{-84,60},{-84,12},{-80,12}}, color={0,0,127}));
+  connect(drawbar.front, ball.drawbar) annotation(Line(points={{20,0},{40,0}}, color={0,127,0}));
+  connect(drawbar.rear, trailer.hitch) annotation(Line(points={{-20,0},{-30,0},{-30,30},{-90,30},{-90,0},{-80,0}}, color={0,127,0}));
+  connect(drawbar.compression, linkage.compression) annotation(Line(points={{0,-20},{0,-60},{-20,-60}}, color={0,0,127}));
+  connect(linkage.brake_torque, trailer.brake_torque) annotation(Line(points={{-60,-60},{-95,-60},{-95,40},{-60,40},{-60,20}}, color={0,0,127}));
+  annotation(
+    experiment(StartTime=0, StopTime=6, Tolerance=1e-6, Interval=0.01),
+    Icon(coordinateSystem(extent={{-100,-100},{100,100}}), graphics={
+      Rectangle(extent={{-80,30},{20,-20}}, lineColor={0,60,120}, fillColor={225,235,245}, fillPattern=FillPattern.Solid),
+      Line(points={{20,-5},{80,-5}}, color={0,60,120}, thickness=1),
+      Ellipse(extent={{72,3},{88,-13}}, lineColor={60,60,60}, fillColor={160,160,160}, fillPattern=FillPattern.Solid),
+      Ellipse(extent={{-50,-10},{-10,-50}}, lineColor={60,60,60}, fillColor={90,90,90}, fillPattern=FillPattern.Solid),
+      Text(extent={{-100,-60},{100,-95}}, textColor={0,0,255}, textString="%name")}),
+    Documentation(info="<html>
+<p>The trailer, its drawbar and its brake linkage of <code>CarTrailer</code>, towed by a ball whose speed
+<code>v_car</code> the car's own model gives. Defaults are those of figure 8.</p>
+<h2>Signs</h2>
+<p>Speeds and accelerations are positive forward. <code>compression</code> is positive when the drawbar is pushed in.
+<code>F_hitch</code> is the force on the car, positive forward: a pushing trailer gives a positive value.
+<code>grade</code> is positive uphill.</p>
+<h2>Limits</h2>
+<p>Forward driving above 0.1 m/s (the tyre law divides by the speed), slip up to about 0.1, no drag, brakes that are
+torques and not friction.</p>
+<h2>Source</h2>
+<p>R. S. Sharp, <em>Longitudinal Oscillations of Vehicle/Trailer Combinations Induced by Overrun Braking</em>, Vehicle
+System Dynamics 11:1 (1982) 43-61, <a href=\"https://doi.org/10.1080/00423118208968687\">doi
+10.1080/00423118208968687</a>.</p>
+</html>"));
+end Trailer;
