@@ -1,5 +1,5 @@
 .DEFAULT_GOAL := help
-.PHONY: help run test test-platforms fuzz fmu fmu-all bench sanitize lint format lock clean
+.PHONY: help run report test test-platforms fuzz fmu fmu-all bench sanitize lint format lock clean
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -13,6 +13,9 @@ help:  ## list the targets
 
 run: $(READY)  ## build what is missing, brake, compare with theory, draw (build/run)
 	$(BIN)/hitch run
+
+report: $(READY)  ## recompute all figures and claims of the paper into one page (build/report/index.html)
+	$(BIN)/hitch report
 
 test: $(READY)  ## run the tests, on all cores
 	$(BIN)/python -m pytest -n auto

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
+
+# Matrices here are tiny, and the tests keep every core busy by themselves. Read when numpy is imported, below.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from fmu_build.pipeline import build
 

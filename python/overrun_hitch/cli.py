@@ -1,4 +1,4 @@
-"""The command line `hitch`. Exit status: 0 agreement, 1 theory and simulation differ, 2 bad input, 130 interrupted."""
+"""The command line `hitch`. Exit status: 0 agreement, 1 what is compared differs, 2 bad input, 130 interrupted."""
 
 from __future__ import annotations
 
@@ -10,7 +10,11 @@ from typing import Annotated
 
 import typer
 
+from overrun_hitch.commands.crosscheck import crosscheck
+from overrun_hitch.commands.paper import paper
+from overrun_hitch.commands.report import report
 from overrun_hitch.commands.run import run
+from overrun_hitch.commands.stability import stability
 from overrun_hitch.parameters import HitchError
 
 app = typer.Typer(
@@ -57,3 +61,7 @@ def _hitch(
 
 
 app.command()(run)
+app.command()(stability)
+app.command()(crosscheck)
+app.command()(paper)
+app.command()(report)

@@ -20,8 +20,8 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from scipy.interpolate import CubicHermiteSpline
 
+from overrun_hitch.events import compressed_from
 from overrun_hitch.linear import ShuntingMode, shunting_mode, wheel_decay_rate
 from overrun_hitch.oscillation import NoOscillation, Oscillation, measure
 from overrun_hitch.parameters import HitchError, Parameters
@@ -81,6 +81,11 @@ class _Run:
     stays: bool  # in compression from here on
     out_of_compression: str  # "" or a sentence about when the drawbar is not in compression
 
+    @property
+    def window(self) -> slice:
+        """The samples to fit: until the oscillation has decayed."""
+        return slice(0, self.decay(DECAYED) + 1)
+
     def decay(self, measure: float) -> int:
         """How many samples pass until theory has the oscillation fall by exp(-measure)."""
         if self.mode is None:
@@ -96,15 +101,24 @@ def compare(run: xr.Dataset, alone: xr.Dataset) -> list[Row]:
     simulated speed of the car; then the paper's A (m/s2), A / A_c (1) and D (m).
     """
     part = _settled_part(run)
-    window = slice(0, part.decay(DECAYED) + 1)
-    found = measure(part.time[window], part.compression[window])
-    return [*_mode_rows(part, window, found), *_steady_rows(part, found, run, alone)]
+    found = _oscillation(part)
+    return [*_mode_rows(part, part.window, found), *_steady_rows(part, found, run, alone)]
+
+
+def shunting(run: xr.Dataset) -> tuple[Oscillation | NoOscillation, str]:
+    """The shunting oscillation as `compare` measures it, and "" or when the drawbar leaves compression meanwhile."""
+    part = _settled_part(run)
+    return _oscillation(part), "" if part.stays else part.out_of_compression
+
+
+def _oscillation(part: _Run) -> Oscillation | NoOscillation:
+    return measure(part.time[part.window], part.compression[part.window])
 
 
 def _settled_part(run: xr.Dataset) -> _Run:
     p = scenario_of(run).parameters
     time, compression = values(run, "time"), values(run, "compression")
-    entry, stays, sentence = _compressed_from(time, compression, values(run, "v_trailer") - values(run, "v_car"), p.eps)
+    entry, stays, sentence = compressed_from(time, compression, values(run, "v_trailer") - values(run, "v_car"), p.eps)
     try:
         start = max(entry, WHEELS_SETTLED / max(wheel_decay_rate(p, p.V_0), 1e-9))
         mode_exists = True
@@ -123,25 +137,6 @@ def _settled_part(run: xr.Dataset) -> _Run:
         stays=stays,
         out_of_compression=sentence,
     )
-
-
-def _compressed_from(time: Floats, compression: Floats, rate: Floats, eps: float) -> tuple[float, bool, str]:
-    """When (s) the drawbar is first compressed, whether it stays so, and a sentence if it was or is not so.
-
-    Looked for on the cubic through values and rates, because a short visit can lie between two samples.
-    """
-    fine = np.linspace(time[0], time[-1], 16 * (len(time) - 1) + 1)
-    inside = CubicHermiteSpline(time, compression, rate)(fine) > eps
-    if not inside.any():
-        return float(time[0]), False, "drawbar is never in compression"
-    first = int(inside.argmax())
-    entry = float(fine[first])
-    if not inside[first:].all():
-        leaves = fine[first + int((~inside[first:]).argmax())]
-        return entry, False, f"drawbar leaves compression at t = {leaves:.2f} s"
-    if compression[0] < eps:
-        return entry, True, f"drawbar comes into compression only at t = {entry:.2f} s"
-    return entry, True, ""
 
 
 def _mode_rows(part: _Run, window: slice, found: Oscillation | NoOscillation) -> list[Row]:
@@ -194,8 +189,7 @@ def _steady_values(part: _Run, found: Oscillation | NoOscillation) -> tuple[floa
         tail = slice(settled, None)
         return _mean(part.time[tail], part.a_car[tail]), _mean(part.time[tail], part.compression[tail]), reason
     if part.stays and isinstance(found, Oscillation):
-        fitted = slice(0, part.decay(DECAYED) + 1)
-        return found.offset_of(part.time[fitted], part.a_car[fitted]), found.offset, reason
+        return found.offset_of(part.time[part.window], part.a_car[part.window]), found.offset, reason
     reason = reason or "the run ends before the motion has settled"
     return _mean(part.time, part.a_car), _mean(part.time, part.compression), reason
 

@@ -5,7 +5,7 @@ fundamental are kept (dual-input describing function: A. Gelb and W. E. Vander V
 Functions and Nonlinear System Design, McGraw-Hill 1968, chapter 6). The fundamental makes k and r smaller, because they
 act over a part of the cycle alone, and adds a share of k_t; with these the linear module tells growth and frequency. A
 cycle is where the growth rate is zero, and stable where growth falls with amplitude. An estimate: harmonics are
-neglected, which is good for cycles that barely enter the clearance and poor for those that strike the stiff tension stop.
+neglected, which is good for cycles that barely enter the clearance and poor for those that strike the tension stop.
 
 At held speed: the weight on a downhill grade does what the deceleration does otherwise.
 """

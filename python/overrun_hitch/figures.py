@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import textwrap
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +33,7 @@ STYLE: dict[Any, Any] = {
     "legend.handlelength": 2.6,
     "svg.hashsalt": "overrun_hitch",  # the same run gives the same file
 }
+KINDS: dict[str, dict[str, Any]] = {"png": {"dpi": 200}, "svg": {"metadata": {"Date": None}}}
 
 
 def draw(run: xr.Dataset) -> Figure:
@@ -63,12 +66,27 @@ def draw(run: xr.Dataset) -> Figure:
 
 def write(run: xr.Dataset, stem: Path) -> list[Path]:
     """Draw a run to stem.png and stem.svg; returns the two paths. HitchError if they cannot be written."""
-    figure = draw(run)
-    paths = [stem.with_name(f"{stem.name}.{kind}") for kind in ("png", "svg")]
+    return save(draw(run), stem)
+
+
+def save(figure: Figure, stem: Path) -> list[Path]:
+    """Write a figure to stem.png and stem.svg; returns the two paths. HitchError if they cannot be written."""
+    contents = {stem.with_name(f"{stem.name}.{kind}"): rendered(figure, kind) for kind in KINDS}
+    for path, content in contents.items():
+        write_atomically(path, partial(_fill, content))
+    return list(contents)
+
+
+def rendered(figure: Figure, kind: str) -> bytes:
+    """The content of the file of this kind, one of KINDS; the same figure gives the same bytes."""
+    buffer = io.BytesIO()
     with mpl.rc_context(STYLE):
-        write_atomically(paths[0], lambda path: figure.savefig(path, format="png", dpi=200))
-        write_atomically(paths[1], lambda path: figure.savefig(path, format="svg", metadata={"Date": None}))
-    return paths
+        figure.savefig(buffer, format=kind, **KINDS[kind])
+    return buffer.getvalue()
+
+
+def _fill(content: bytes, path: Path) -> None:
+    path.write_bytes(content)
 
 
 def _label(axes: Axes, name: str) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from overrun_hitch.oscillation import NoOscillation, measure
-from overrun_hitch.parameters import HitchError, Parameters
+from overrun_hitch.parameters import Parameters
 from overrun_hitch.results import VARIABLES
 from overrun_hitch.unit import HitchUnit
 
@@ -25,6 +25,7 @@ SPEED_TIME = 20.0  # s: the driver corrects a speed error so slowly that the osc
 SETTLING = 180.0  # s
 OBSERVED = 20.0  # s
 FADED = 0.05  # of the steady compression: smaller is still on its way to rest
+STEADY_GROWTH = 0.003  # 1/s: faster, and the amplitude changes by more than 6 % while it is observed
 SPEED_ALLOWED = 1.0  # m/s, from the speed to be held
 
 
@@ -32,8 +33,8 @@ SPEED_ALLOWED = 1.0  # m/s, from the speed to be held
 class Sustained:
     """What a motion has come to after `SETTLING` seconds."""
 
-    verdict: str  # "sustained", "fades" or "runs away"
-    amplitude: float  # m, of the fundamental of the compression; NaN unless sustained
+    verdict: str  # "sustained", "unsettled" (still growing or decaying), "fades" or "runs away"
+    amplitude: float  # m, of the fundamental of the compression; NaN where it fades or runs away
     frequency: float  # Hz
     growth_rate: float  # 1/s, what is left of growth or decay
     lowest: float  # m, the smallest compression of a cycle
@@ -64,7 +65,7 @@ def sustained_motion(unit: HitchUnit, parameters: Parameters, V: float, grade: f
     if isinstance(found, NoOscillation) or abs(float(speed[last].mean()) - V) > SPEED_ALLOWED:
         return Sustained("runs away", *NOTHING)
     return Sustained(
-        verdict="sustained",
+        verdict="sustained" if abs(found.growth_rate) < STEADY_GROWTH else "unsettled",
         amplitude=abs(found.amplitude_of(time, compression[last])),
         frequency=found.frequency,
         growth_rate=found.growth_rate,

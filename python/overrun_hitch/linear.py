@@ -122,7 +122,8 @@ def shunting_mode(parameters: Parameters, V: ArrayLike) -> ShuntingMode:
 
     It is picked as the mode in which the drawbar compression participates most (participation factors: Perez-Arriaga,
     Verghese and Schweppe 1982, doi 10.1109/TPAS.1982.317524). Unlike "the slowest complex pair" this stays right where
-    strong damping splits the pair into two real roots and the faster one pairs up with a wheel's.
+    strong damping splits the pair into two real roots and the faster one pairs up with a wheel's. A motion that grows
+    goes before: so the growth rate is positive exactly where any motion grows.
     HitchError where nothing returns the trailer to its place (k = r = 0).
     """
     speed = np.asarray(V, dtype=np.float64)
@@ -152,4 +153,7 @@ def _modes(parameters: Parameters, speeds: Floats) -> tuple[Complexes, Complexes
     values, right = np.linalg.eig(np.array([compression_matrix(parameters, float(value)) for value in speeds]))
     left = np.linalg.inv(right)
     participation = np.abs(right[:, 0, :] * left[:, :, 0])
+    # Slip alone always decays, so a motion that grows is the shunting mode, however much of it is in the wheels.
+    grows = values.real > 1e-9 * np.abs(values).max(axis=1, keepdims=True)
+    participation = np.where(grows, np.inf, participation)
     return values.astype(np.complex128), right.astype(np.complex128), participation.argmax(axis=1)

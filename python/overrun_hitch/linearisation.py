@@ -1,7 +1,7 @@
 """The FMU's own linearisation, from its directional derivatives, beside the paper's dynamic matrix (section 5).
 
-The FMU's states are x_c, v_c, omega_c, v_t, omega_t and the compression delta = x_t - x_c; the paper's are x_c, x_t, the
-wheel angles and their rates. Wheel angles act on nothing, so the FMU has none, and here the paper's matrix is taken
+The FMU's states are x_c, v_c, omega_c, v_t, omega_t and the compression delta = x_t - x_c; the paper's are x_c, x_t,
+the wheel angles and their rates. Wheel angles act on nothing, so the FMU has none, and here the paper's matrix is taken
 without their rows and columns (linear.reduced_matrix). What is left differs by the exact change of coordinates
 x_t = x_c + delta.
 """
@@ -71,8 +71,8 @@ def at_zero_slip(unit: HitchUnit, parameters: Parameters, V: float, compression:
 def at_steady_braking(unit: HitchUnit, parameters: Parameters, V: float, brake_torque: float) -> Linearisation:
     """After 3 s of braking by `brake_torque` (N.m), when the speed has fallen to about V (m/s).
 
-    A tyre force C_k (v - R omega) / v has the slope C_k (1 - slip) / v by v, where the paper, holding the denominator at
-    V, has C_k / V; the slope by omega, -C_k R / v, is the same. The trailer's speed is the car's but for the vibration.
+    A tyre force C_k (v - R omega) / v has the slope C_k (1 - slip) / v by v, where the paper, holding the denominator
+    at V, has C_k / V; the slope by omega, -C_k R / v, is the same. The trailer's speed is nearly the car's.
     """
     start = steady(parameters, brake_torque)
     changed = parameters.changed({"V_0": V - SETTLED * start.A, "compression_start": start.D})

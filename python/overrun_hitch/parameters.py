@@ -64,7 +64,7 @@ class Quantities(BaseModel):
             return f"{name} is missing: {cls.description(name)} must be {cls.allowed(name)}"
         try:
             shown = f"{float(error['input']):g} {cls.unit(name)}".strip()
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             shown = f"{error['input']!r:.40}"
         return f"{name} = {shown} is not allowed: {cls.description(name)} must be {cls.allowed(name)}"
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -21,18 +21,21 @@ COLOURS = {"agrees": "green", "differs": "bold red", "not judged": "yellow"}
 
 
 @contextmanager
-def patience(what: str) -> Iterator[None]:
-    """Show `what` with a spinner on stderr, where that is a terminal, once it takes over two seconds."""
+def patience(what: str) -> Iterator[Callable[[str], None]]:
+    """Show `what` with a spinner on stderr, where that is a terminal, once it takes over two seconds.
+
+    Gives a function that shows something else from then on.
+    """
     console = Console(stderr=True)
     if not console.is_terminal:
-        yield
+        yield lambda _: None
         return
     status = console.status(f"{what} ...")
     timer = threading.Timer(PATIENCE, status.start)
     timer.daemon = True
     timer.start()
     try:
-        yield
+        yield lambda now: status.update(f"{now} ...")
     finally:
         timer.cancel()
         timer.join()  # it may be starting the spinner at this moment

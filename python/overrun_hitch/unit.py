@@ -1,4 +1,4 @@
-"""CarTrailer.fmu opened in this process, through fmpy. The one module that touches fmpy, which has no types.
+"""FMUs opened in this process, through fmpy. The one module that touches fmpy, which has no types.
 
 fmpy's FMU2Slave is driven directly, not through simulate_fmu: so outputs are read at the start before the first step,
 the unit's own messages are caught instead of printed, and whatever ends a run, the unpacked folder goes and the working
@@ -11,7 +11,7 @@ import ctypes
 import os
 import tempfile
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -33,10 +33,10 @@ from overrun_hitch.results import VARIABLES
 Floats = NDArray[np.float64]
 
 
-class HitchUnit:
-    """An instance of the FMU for co-simulation; from `opened_unit`, and good for any number of runs.
+class Unit:
+    """An instance of an FMU for co-simulation, with names instead of value references; good for any number of runs.
 
-    What the unit refuses becomes a HitchError in its own words where `opened_unit` ends.
+    From `opened`. What the FMU refuses becomes a HitchError in its own words where `opened` ends.
     """
 
     def __init__(self, name: str, description: Any, slave: Any) -> None:
@@ -45,15 +45,14 @@ class HitchUnit:
         self._slave = slave
         self._references = {variable.name: variable.valueReference for variable in description.modelVariables}
         self._derivatives = [unknown.variable for unknown in description.derivatives]
-        self._outputs = [self._references[name] for name in VARIABLES]
         self._fresh = True
 
-    def start(self, parameters: Parameters, inputs: Mapping[str, float], relative_tolerance: float) -> None:
+    def start_with(self, values: Mapping[str, float], relative_tolerance: float) -> None:
         """From any state to t = 0 of a new run with these parameters and inputs (SI units)."""
         if not self._fresh:
             self._slave.reset()
         self._fresh = False
-        self.set({**parameters.model_dump(), **inputs})
+        self.set(values)
         self._slave.setupExperiment(tolerance=relative_tolerance, startTime=0.0)
         self._slave.enterInitializationMode()
         self._slave.exitInitializationMode()
@@ -62,13 +61,27 @@ class HitchUnit:
         """Set inputs, and during a run tunable parameters, by name (SI units)."""
         self._slave.setReal([self._references[name] for name in values], list(values.values()))
 
+    def set_slopes(self, slopes: Mapping[str, float]) -> None:
+        """How inputs change during the next step, by name, in their units per second."""
+        references = [self._references[name] for name in slopes]
+        self._slave.setRealInputDerivatives(references, [1] * len(references), list(slopes.values()))
+
+    def get(self, names: Sequence[str]) -> list[float]:
+        """Values by name (SI units)."""
+        return list(self._slave.getReal([self._references[name] for name in names]))
+
     def step(self, time: float, size: float) -> None:
         """Go on from `time` by `size`, both in s."""
         self._slave.doStep(time, size)
 
-    def outputs(self) -> list[float]:
-        """The outputs in the order of results.VARIABLES."""
-        return list(self._slave.getReal(self._outputs))
+    @contextmanager
+    def saved(self) -> Iterator[Callable[[], None]]:
+        """Keep the present state; what is given takes the unit back to it, as often as it is called."""
+        state = self._slave.getFMUstate()
+        try:
+            yield lambda: self._slave.setFMUstate(state)
+        finally:
+            self._slave.freeFMUstate(state)
 
     def jacobian(self) -> tuple[list[str], Floats]:
         """Names (n,) of the states and the derivatives (n, n) of their rates by them: the unit's directional ones."""
@@ -78,23 +91,46 @@ class HitchUnit:
         return states, np.array(columns, dtype=np.float64).T
 
 
+class HitchUnit(Unit):
+    """CarTrailer.fmu, or another tool's export of it."""
+
+    def start(self, parameters: Parameters, inputs: Mapping[str, float], relative_tolerance: float) -> None:
+        """From any state to t = 0 of a new run with these parameters and inputs (SI units)."""
+        self.start_with({**parameters.model_dump(), **inputs}, relative_tolerance)
+
+    def outputs(self) -> list[float]:
+        """The outputs in the order of results.VARIABLES."""
+        return self.get(list(VARIABLES))
+
+
 @contextmanager
 def opened_unit(fmu: Path) -> Iterator[HitchUnit]:
+    """CarTrailer.fmu, see `opened`. HitchError also for an FMU that has not its variables."""
+    needed = [*VARIABLES, *Parameters.model_fields, "brake_torque"]
+    with _opened(fmu, needed, "a car and trailer") as (description, slave):
+        yield HitchUnit(fmu.name, description, slave)
+
+
+@contextmanager
+def opened(fmu: Path, needed: Sequence[str], what: str) -> Iterator[Unit]:
     """Unpack and instantiate the FMU file, and clean up behind.
 
-    HitchError for a file that is none, for another kind of FMU, and for whatever the FMU refuses.
+    `needed` are names that it must have to be `what` ("a trailer"). HitchError for a file that is none, for another
+    kind of FMU, and for whatever the FMU refuses.
     """
+    with _opened(fmu, needed, what) as (description, slave):
+        yield Unit(fmu.name, description, slave)
+
+
+@contextmanager
+def _opened(fmu: Path, needed: Sequence[str], what: str) -> Iterator[tuple[Any, Any]]:
     with _unpacked(fmu) as (description, folder):
-        _check_variables(fmu, description)
+        names = {variable.name for variable in description.modelVariables}
+        missing = [name for name in needed if name not in names]
+        if missing:
+            raise HitchError(f"{fmu} is not {what}: it has no variable {', '.join(missing)}")
         with _instance(fmu, description, folder) as slave:
-            yield HitchUnit(fmu.name, description, slave)
-
-
-def _check_variables(fmu: Path, description: Any) -> None:
-    names = {variable.name for variable in description.modelVariables}
-    missing = [name for name in (*VARIABLES, *Parameters.model_fields, "brake_torque") if name not in names]
-    if missing:
-        raise HitchError(f"{fmu} is not a car and trailer: it has no variable {', '.join(missing)}")
+            yield description, slave
 
 
 @contextmanager

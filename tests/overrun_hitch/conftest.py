@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 import xarray as xr
+from matplotlib.figure import Figure
 
+from overrun_hitch.paper.figures import figures
+from overrun_hitch.paper.study import Study, study
 from overrun_hitch.parameters import Scenario
 from overrun_hitch.results import VARIABLES, dataset, scenario_attributes
 from tests.oracles import radau
@@ -28,3 +32,15 @@ def oracle_run() -> OracleRun:
         return dataset(solved.time[::milliseconds], columns, attributes)
 
     return run
+
+
+@pytest.fixture(scope="session")
+def paper_study(car_trailer_fmu: Path) -> Study:
+    """Everything recomputed: about ten seconds, once for all tests of it."""
+    return study(car_trailer_fmu)
+
+
+@pytest.fixture(scope="session")
+def paper_figures(paper_study: Study) -> dict[str, Figure]:
+    """The figures of that study, drawn once."""
+    return figures(paper_study)

@@ -158,6 +158,7 @@ def test_version_and_help(capsys: pytest.CaptureFixture[str]) -> None:
         "--figure",
         "--case",
         "--set",
+        "--parameters",
         "--duration",
         "--brake-torque",
         "--tolerance",

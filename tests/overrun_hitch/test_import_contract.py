@@ -29,6 +29,10 @@ def test_theory_sees_numpy_and_parameters_alone(module: str) -> None:
     assert imports(module) <= {"numpy", "numpy.typing", "overrun_hitch.parameters"}
 
 
+def test_the_boundary_sees_theory_and_a_root_finder_alone() -> None:
+    assert imports("boundary") <= {"numpy", "scipy.optimize", "overrun_hitch.linear", "overrun_hitch.parameters"}
+
+
 def test_parameters_see_pydantic_alone() -> None:
     assert imports("parameters") == {"pydantic"}
 

@@ -125,3 +125,15 @@ def test_wheels_settle_as_fast_as_design_says(V: float) -> None:
 def test_no_shunting_mode_without_drawbar() -> None:
     with pytest.raises(HitchError, match=r"no shunting mode"):
         shunting_mode(Parameters(k=0.0, r=0.0), 20.0)
+
+
+def test_what_grows_is_the_shunting_mode() -> None:
+    """Large, soft-tyred wheels at high speed: the slip of the wheels is in it as much as the drawbar is."""
+    p = Parameters(
+        M_c=266.0, M_t=973.0, I_c=4.29, I_t=9.46, R_c=0.158, R_t=0.163, C_kc=893e3, C_kt=439e3, k=204e3, r=4.42e6
+    )
+    for C in (0.0, 100.0, 1e3, 1e4, 3e4, 1e5):
+        largest = motions(compression_matrix(p.changed({"C": C}), 76.2)).real.max()
+        growth_rate = float(shunting_mode(p.changed({"C": C}), 76.2).growth_rate)
+        assert (growth_rate > 0.0) == (largest > 0.0)
+    assert float(shunting_mode(p.changed({"C": 0.0}), 76.2).growth_rate) > 20.0

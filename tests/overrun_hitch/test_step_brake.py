@@ -127,9 +127,12 @@ def rewritten(fmu: Path, changed: Path, entry: str, old: bytes, new: bytes) -> N
             target.writestr(name, content.replace(old, new) if name.startswith(entry) else content)
 
 
-def test_fmus_that_cannot_run_here(car_trailer_fmu: Path, tmp_path: Path) -> None:
+def test_fmus_that_cannot_run_here(car_trailer_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     bad = tmp_path / "bad.fmu"
-    before = sorted(os.listdir(tempfile.gettempdir())), os.getcwd()
+    unpacked = tmp_path / "unpacked"
+    unpacked.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(unpacked))  # other tests unpack at the same time
+    here = os.getcwd()
 
     def refused(reason: str) -> None:
         with pytest.raises(HitchError, match=reason) as caught:
@@ -149,9 +152,8 @@ def test_fmus_that_cannot_run_here(car_trailer_fmu: Path, tmp_path: Path) -> Non
     refused("does not start")
     bad.write_bytes(car_trailer_fmu.read_bytes()[:5000])
     refused("zip archive")
-    hitches = [name for name in os.listdir(tempfile.gettempdir()) if name.startswith("hitch-")]
-    assert [name for name in hitches if name not in before[0]] == []
-    assert os.getcwd() == before[1]
+    assert list(unpacked.iterdir()) == []
+    assert os.getcwd() == here
 
 
 def test_the_command_writes_what_it_says(

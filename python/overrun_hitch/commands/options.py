@@ -2,14 +2,30 @@
 
 from __future__ import annotations
 
+import hashlib
+import re
+import sys
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
-from overrun_hitch.parameters import HitchError
+from overrun_hitch.parameters import HitchError, Parameters
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+LONGEST_FILE = 1_000_000  # bytes; all parameters together need 300
+LONGEST_STEM = 120  # characters; file systems allow 255 bytes with suffix
 
 SetOption = Annotated[list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a parameter (SI).")]
+ParametersOption = Annotated[
+    Path | None,
+    typer.Option("--parameters", metavar="FILE.toml", help="Change the parameters in this file (SI); --set wins."),
+]
 FmuOption = Annotated[Path | None, typer.Option(help="FMU file to run instead of our own.")]
 
 
@@ -20,6 +36,67 @@ def assignments(changes: list[str] | None) -> dict[str, str]:
         if not equals:
             raise HitchError(f"--set {name!r:.40} is not NAME=VALUE; for example --set C=200")
     return {name.strip(): value.strip() for name, _, value in pairs}
+
+
+def asked_changes(file: Path | None, changes: list[str] | None) -> dict[str, Any]:
+    """Name to value of what --parameters and --set change; --set goes before. HitchError as for each."""
+    return {**(parameters_of(file) if file else {}), **assignments(changes)}
+
+
+def parameters_of(file: Path) -> dict[str, float]:
+    """Name to value (SI) of the parameters in a TOML file, at its top or under [parameters].
+
+    HitchError, naming the file, where it can't be read, is no TOML, or holds anything but parameters and numbers in
+    their ranges.
+    """
+    table = _toml(file)
+    if "parameters" in table:
+        outside = next((name for name in table if name != "parameters"), None)
+        if outside is not None:
+            raise HitchError(
+                f"{file}: {outside!r:.40} stands outside [parameters]; allowed: all inside, or all outside"
+            )
+        table = table["parameters"]
+        if not isinstance(table, dict):
+            raise HitchError(f"{file}: parameters = {table!r:.40} is not allowed; a table [parameters] is")
+    for name, value in table.items():
+        if name in Parameters.model_fields and (isinstance(value, bool) or not isinstance(value, int | float)):
+            allowed = f"{Parameters.description(name)} must be {Parameters.allowed(name)}"
+            raise HitchError(f"{file}: {name} = {value!r:.40} is not allowed: {allowed}")
+    try:
+        checked = Parameters(**table)
+    except HitchError as error:
+        raise HitchError(f"{file}: {error}") from None
+    return {name: float(getattr(checked, name)) for name in table}
+
+
+def _toml(file: Path) -> dict[str, Any]:
+    try:
+        with file.open("rb") as stream:
+            content = stream.read(LONGEST_FILE + 1)
+    except OSError as error:
+        raise HitchError(f"cannot read {file}: {error.strerror or error}") from None
+    if len(content) > LONGEST_FILE:
+        raise HitchError(f"{file} is longer than {LONGEST_FILE} bytes: no file of parameters")
+    try:
+        table: dict[str, Any] = tomllib.loads(content.decode("utf-8"))
+    except (ValueError, RecursionError) as error:
+        raise HitchError(f"{file} is not TOML, such as k = 5480.0: {error}") from None
+    return table
+
+
+def name_with(name: str, before: Parameters, after: Parameters, others: Mapping[str, float] | None = None) -> str:
+    """`name` and what was changed: "case ii, C=200". What is drawn and written must not pass for the paper's."""
+    changed = {p: getattr(after, p) for p in Parameters.model_fields if getattr(after, p) != getattr(before, p)}
+    return ", ".join([name, *(f"{key}={value:g}" for key, value in {**changed, **(others or {})}.items())])
+
+
+def file_stem(name: str) -> str:
+    """A file's name without suffix for what is called `name`; a long one is cut and told apart by its digest."""
+    stem = re.sub(r"[ ,]+", "-", name)
+    if len(stem) <= LONGEST_STEM:
+        return stem
+    return f"{stem[: LONGEST_STEM - 9]}-{hashlib.sha256(name.encode()).hexdigest()[:8]}"
 
 
 def chosen_fmu(fmu: Path | None) -> Path:

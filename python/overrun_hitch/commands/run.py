@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from overrun_hitch.commands.options import FmuOption, SetOption, assignments, chosen_fmu
+from overrun_hitch.commands.options import (
+    FmuOption,
+    ParametersOption,
+    SetOption,
+    asked_changes,
+    chosen_fmu,
+    file_stem,
+    name_with,
+)
 from overrun_hitch.parameters import CASES, FIGURES, HitchError, Scenario, named
 
 
@@ -16,6 +24,7 @@ def run(
     figure: Annotated[str | None, typer.Option(help=f"Step brake of the paper's figure: {', '.join(FIGURES)}.")] = None,
     case: Annotated[str | None, typer.Option(help=f"Figure 8 with the paper's case: {', '.join(CASES)}.")] = None,
     set_: SetOption = None,
+    parameters: ParametersOption = None,
     duration: Annotated[float | None, typer.Option(help="Length of the run in s (6).")] = None,
     brake_torque: Annotated[float | None, typer.Option(help="Brake torque on the car's wheels in N.m (1000).")] = None,
     tolerance: Annotated[float, typer.Option(help="Relative tolerance of the integrator.")] = 1e-6,
@@ -24,7 +33,9 @@ def run(
     output: Annotated[Path, typer.Option(help="Folder for the files written.")] = Path("build/run"),
 ) -> int:
     """Brake car and trailer by a step, compare with theory, draw the paper's traces and write them as CSV."""
-    scenario = asked_scenario(figure, case, assignments(set_), duration=duration, brake_torque=brake_torque)
+    scenario = asked_scenario(
+        figure, case, asked_changes(parameters, set_), duration=duration, brake_torque=brake_torque
+    )
 
     # Imported here, because fmpy, xarray and matplotlib would slow down `hitch --help` and wrong options.
     from overrun_hitch import figures, results, terminal
@@ -39,7 +50,7 @@ def run(
     with terminal.patience("Braking"):
         result = step_brake(scenario, **accuracy)
         rows = compare(result, step_brake(car_alone(scenario), **accuracy))
-    stem = output / re.sub(r"[ ,]+", "-", scenario.name)
+    stem = output / file_stem(scenario.name)
     with terminal.patience("Drawing"):
         results.write_csv(result, stem.with_name(f"{stem.name}.csv"))
         paths = [stem.with_name(f"{stem.name}.csv"), *figures.write(result, stem)]
@@ -48,7 +59,7 @@ def run(
 
 
 def asked_scenario(
-    figure: str | None, case: str | None, parameters: dict[str, str], **settings: float | None
+    figure: str | None, case: str | None, changes: Mapping[str, Any], **settings: float | None
 ) -> Scenario:
     """The scenario that the options ask for; figure 8 unless they say otherwise."""
     if figure is not None and case is not None:
@@ -57,8 +68,6 @@ def asked_scenario(
     if case is not None:
         scenario = scenario.changed(name=f"case {case}", parameters=named("case", case, CASES))
     given = {name: value for name, value in settings.items() if value is not None}
-    changed = scenario.changed(parameters=scenario.parameters.changed(parameters), **given)
-    # The name says what was changed: what is drawn and written must not pass for the paper's figure.
-    changes_made = {name: getattr(changed.parameters, name) for name in parameters} | given
-    name = ", ".join([changed.name, *(f"{name}={value:g}" for name, value in changes_made.items())])
-    return changed.changed(name=name)
+    parameters = scenario.parameters.changed(changes)
+    name = name_with(scenario.name, scenario.parameters, parameters, given)
+    return scenario.changed(name=name, parameters=parameters, **given)

@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 
 DEFLECTION = 0.01  # m for 1 m/s2 of deceleration: how the paper's section 8.1 chooses k
 SPEEDS = np.linspace(5.0, 45.0, 17)  # m/s
-RATIOS = np.linspace(0.5, 10.0, 20)  # r/k in m
+RATIOS = np.geomspace(0.5, 10.0, 24)  # r/k in m: closer together where the boundary bends
 CHECKED_SPEEDS = (10.0, 20.0, 40.0)
 CHECKED_RATIOS = (1.225, 2.975, 8.23)  # cases i, ii, iii
 BESIDE = 0.1  # of C_crit: how far from the boundary the FMU is asked

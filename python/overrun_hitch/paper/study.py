@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import xarray as xr
+from threadpoolctl import threadpool_limits
 
 from overrun_hitch.compare import compare
 from overrun_hitch.linearisation import Linearisation, at_steady_braking, at_zero_slip
@@ -60,7 +61,8 @@ class Study:
 
 def study(fmu: Path, progress: Callable[[str], object] = lambda _: None) -> Study:
     """Compute everything on the FMU file and in theory; `progress` is told what is being done."""
-    with opened_unit(fmu) as unit:
+    # The matrices are tiny: with more than one thread, BLAS spends two thirds of the time waiting for its own.
+    with threadpool_limits(limits=1), opened_unit(fmu) as unit:
         progress("braking: figures 6 to 11")
         runs = {name: brake(unit, scenario, SETTINGS) for name, scenario in FIGURES.items()}
         alone = {name: brake(unit, car_alone(scenario), SETTINGS) for name, scenario in FIGURES.items()}

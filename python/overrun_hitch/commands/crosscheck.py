@@ -1,0 +1,64 @@
+"""`hitch crosscheck`: the same step brakes on several FMUs, compared with the first."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from overrun_hitch.commands.options import file_stem
+from overrun_hitch.parameters import FIGURES, HitchError, named
+
+
+def crosscheck(
+    fmus: Annotated[
+        list[Path], typer.Argument(metavar="FMU", help="Two FMUs or more; the first, A, is the reference.")
+    ],
+    figure: Annotated[
+        list[str] | None, typer.Option(help=f"Step brake of this figure; may be repeated (all: {', '.join(FIGURES)}).")
+    ] = None,
+    tolerance: Annotated[float, typer.Option(help="Relative tolerance of the integrators.")] = 1e-6,
+    step: Annotated[float, typer.Option(help="Communication step in s.")] = 0.01,
+    funnel: Annotated[float, typer.Option(help="Allowed distance, relative to a variable's range in A.")] = 1e-3,
+    funnel_time: Annotated[float, typer.Option(help="Allowed shift in time, in s.")] = 1e-4,
+    json: Annotated[bool, typer.Option("--json", help="Print one JSON document instead of tables.")] = False,
+    output: Annotated[Path, typer.Option(help="Folder for the files written.")] = Path("build/crosscheck"),
+) -> int:
+    """Run FMUs of the same model, other tools' exports say, through the paper's figures and compare with the first."""
+    if len(fmus) < 2:
+        raise HitchError(f"{fmus[0]} alone cannot be compared: two FMUs at least are needed, the reference first")
+    scenarios = [named("figure", name, FIGURES) for name in dict.fromkeys(figure or FIGURES)]
+
+    # Imported here, because fmpy, xarray and matplotlib would slow down `hitch --help` and wrong options.
+    from overrun_hitch import crosscheck_figures, crosscheck_report, results, terminal
+    from overrun_hitch.crosscheck import LABELS, Allowed, compare_fmus
+    from overrun_hitch.run import Settings
+
+    if len(fmus) > len(LABELS):
+        raise HitchError(f"{len(fmus)} FMUs are too many: {len(LABELS)} at most")
+    settings = Settings(relative_tolerance=tolerance, communication_step=step)
+    allowed = Allowed(funnel=funnel, funnel_time=funnel_time)
+    checks = []
+    contents: dict[str, bytes] = {}  # written when all are there, so that an interrupted run leaves nothing
+    with terminal.patience("Crosschecking"):
+        for scenario in scenarios:
+            checks.append(compare_fmus(scenario, fmus, settings, allowed))
+            picture = crosscheck_figures.draw(checks[-1], [fmu.name for fmu in fmus], allowed)
+            for kind, content in crosscheck_figures.files(picture).items():
+                contents[f"{file_stem(scenario.name)}.{kind}"] = content
+    paths = [output / name for name in (*contents, "crosscheck.json")]
+    document = crosscheck_report.document(checks, fmus, settings, allowed, paths)
+    contents["crosscheck.json"] = document.encode()
+    for name, content in contents.items():
+        results.write_atomically(output / name, partial(_write, content))
+    if json:
+        print(document, end="")
+    else:
+        crosscheck_report.show(checks, fmus, allowed, paths)
+    return 1 if any(comparison.differing for check in checks for comparison in check.comparisons) else 0
+
+
+def _write(content: bytes, path: Path) -> None:
+    path.write_bytes(content)

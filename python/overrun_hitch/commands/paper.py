@@ -1,0 +1,51 @@
+"""`hitch paper`: every figure and every claim of the paper, recomputed."""
+
+from __future__ import annotations
+
+import json as json_format
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from overrun_hitch.commands.options import FmuOption, chosen_fmu
+
+
+def paper(
+    fmu: FmuOption = None,
+    json: Annotated[bool, typer.Option("--json", help="Print one JSON document instead of tables.")] = False,
+    output: Annotated[Path, typer.Option(help="Folder for the figures written.")] = Path("build/paper"),
+) -> int:
+    """Recompute all figures and claims of the paper, in theory and on the FMU, and judge each claim.
+
+    The exit status is 1 if a claim does not hold.
+    """
+    # Imported here, because fmpy, xarray and matplotlib would slow down `hitch --help` and wrong options.
+    from overrun_hitch import results, terminal
+    from overrun_hitch.figures import KINDS, rendered
+    from overrun_hitch.paper import claims_table, study
+    from overrun_hitch.paper.claims import all_claims
+    from overrun_hitch.paper.figures import figures, stem
+
+    unit = chosen_fmu(fmu)
+    with terminal.patience("Recomputing the paper") as say:
+        computed = study.study(unit, say)
+        claims = all_claims(computed)
+        contents = {  # written when all are there, so that an interrupted run leaves nothing
+            output / f"{stem(name)}.{kind}": rendered(figure, kind)
+            for name, figure in figures(computed, say).items()
+            for kind in KINDS
+        }
+    for path, content in contents.items():
+        results.write_atomically(path, partial(_write, content))
+    if json:
+        document = claims_table.document(computed, claims, list(contents))
+        print(json_format.dumps(document, indent=2, allow_nan=False, ensure_ascii=False))
+    else:
+        claims_table.show(claims, list(contents))
+    return 0 if all(claim.verdict == "holds" for claim in claims) else 1
+
+
+def _write(content: bytes, path: Path) -> None:
+    path.write_bytes(content)

@@ -1,0 +1,49 @@
+"""`hitch report`: one page that shows what was recomputed of the paper, and what lies beyond it."""
+
+from __future__ import annotations
+
+import shlex
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from overrun_hitch.commands.options import FmuOption, chosen_fmu
+
+FOLDER = Path("build/report")
+
+
+def report(
+    fmu: FmuOption = None,
+    output: Annotated[Path, typer.Option(help="Folder for index.html.")] = FOLDER,
+) -> int:
+    """Write index.html: the paper's figures and claims, both linearisations, the boundary, limit cycles, a conclusion.
+
+    The exit status is 1 if a claim, or one of the page's own findings, does not hold.
+    """
+    # Imported here, because fmpy, xarray and matplotlib would slow down `hitch --help` and wrong options.
+    from overrun_hitch import results, terminal
+    from overrun_hitch.paper import study
+    from overrun_hitch.report import COMMAND, page, report_of, show
+
+    unit = chosen_fmu(fmu)
+    path = output / "index.html"
+    with terminal.patience("Recomputing the paper") as say:
+        found = report_of(study.study(unit, say), _with_options(COMMAND, fmu, output), say)
+        content = page(found).encode()
+    results.write_atomically(path, partial(_write, content))
+    show(found, path)
+    return 0 if found.holds else 1
+
+
+def _with_options(command: str, fmu: Path | None, output: Path) -> str:
+    """What to type for the same page."""
+    options = [] if fmu is None else ["--fmu", str(fmu)]
+    if output != FOLDER:
+        options += ["--output", str(output)]
+    return shlex.join([*command.split(), *options])
+
+
+def _write(content: bytes, path: Path) -> None:
+    path.write_bytes(content)
