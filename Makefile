@@ -4,8 +4,10 @@
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
-FMUS := build/fmi2/CarTrailer.fmu build/fmi3/CarTrailer.fmu
-BUILD := $(BIN)/python -m fmu_build modelica/OverrunHitch OverrunHitch.Systems.CarTrailer
+UNITS := CarTrailer Car Trailer
+FMUS := $(foreach unit,$(UNITS),build/fmi2/$(unit).fmu build/fmi3/$(unit).fmu)
+BUILD := $(BIN)/python -m fmu_build modelica/OverrunHitch OverrunHitch.Systems
+SOURCES := $(READY) $(shell find modelica fmu_build -name '*.mo' -o -name '*.order' -o -name '*.py' -o -name '*.[ch]')
 C_FILES := fmu_build/runtime/*.[ch] tests/platforms/*.[ch] benchmarks/*.c
 
 help:  ## list the targets
@@ -25,12 +27,15 @@ test-platforms: $(READY)  ## build for all systems and run what can be run here 
 
 fmu: $(FMUS)  ## build the FMUs for this machine, FMI 2 and 3
 
-build/fmi%/CarTrailer.fmu: $(READY) $(shell find modelica fmu_build -name '*.mo' -o -name '*.order' -o -name '*.py' -o -name '*.[ch]')
-	$(BUILD) -o $@ --fmi $*
+build/fmi2/%.fmu: $(SOURCES)
+	$(BUILD).$* -o $@ --fmi 2
+
+build/fmi3/%.fmu: $(SOURCES)
+	$(BUILD).$* -o $@ --fmi 3
 
 fmu-all: $(READY)  ## build them for Linux, Windows and macOS (minutes, the first time)
-	$(BUILD) -o build/fmi2/CarTrailer.fmu --fmi 2 --platforms all
-	$(BUILD) -o build/fmi3/CarTrailer.fmu --fmi 3 --platforms all
+	for unit in $(UNITS); do for fmi in 2 3; do \
+	    $(BUILD).$$unit -o build/fmi$$fmi/$$unit.fmu --fmi $$fmi --platforms all || exit; done; done
 
 bench: $(READY) $(word 1,$(FMUS))  ## measure six seconds in C against what they may take (benchmarks/results.md)
 	$(BIN)/python -m benchmarks.six_seconds $(word 1,$(FMUS))

@@ -11,8 +11,8 @@ from pathlib import Path
 from overrun_hitch.parameters import HitchError
 
 ROOT = Path(__file__).resolve().parents[2]
-CAR_TRAILER = ROOT / "build" / "fmi2" / "CarTrailer.fmu"
-CLASS = "OverrunHitch.Systems.CarTrailer"
+OURS = ROOT / "build" / "fmi2"  # a file there has the name of its class
+CAR_TRAILER, CAR, TRAILER = (OURS / f"{name}.fmu" for name in ("CarTrailer", "Car", "Trailer"))
 LIBRARY = ROOT / "modelica" / "OverrunHitch"
 GENERATOR = ROOT / "fmu_build"
 SOURCES = {".mo", ".order", ".py", ".c", ".h"}
@@ -27,10 +27,11 @@ def is_current(fmu: Path = CAR_TRAILER) -> bool:
 
 
 def build(fmu: Path = CAR_TRAILER) -> None:
-    """Make the FMU from the Modelica library. HitchError with the generator's own line where it cannot be made."""
+    """Make the FMU from the class of its name in the Modelica library. HitchError with the generator's own line where it cannot be made."""
     if not LIBRARY.is_dir():
         raise HitchError(f"{LIBRARY} is not there, so {fmu.name} cannot be built; give a built one with --fmu")
-    command = [sys.executable, "-m", "fmu_build", str(LIBRARY), CLASS, "-o", str(fmu), "--fmi", "2"]
+    class_name = f"{LIBRARY.name}.Systems.{fmu.stem}"
+    command = [sys.executable, "-m", "fmu_build", str(LIBRARY), class_name, "-o", str(fmu), "--fmi", "2"]
     search = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
     done = subprocess.run(
         command, cwd=ROOT, env={**os.environ, "PYTHONPATH": search}, capture_output=True, text=True, check=False
