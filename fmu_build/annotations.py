@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from .ir import Experiment
 
@@ -40,6 +40,21 @@ def read_examples(text: str) -> tuple[str, ...]:
     """The classes in our own annotation ``__fmu_build(referenceExamples={"...", "..."})``."""
     listed = re.search(r"\breferenceExamples\s*=\s*\{([^}]*)\}", _arguments("__fmu_build", text))
     return tuple(re.findall(r'"([^"]+)"', listed.group(1))) if listed else ()
+
+
+def read_couplings(text: str) -> tuple[str, ...]:
+    """The arguments of each ``coupling(...)`` in ``__fmu_build``; what they mean is told in ports.py."""
+    return tuple(_all_arguments("coupling", _arguments("__fmu_build", text)))
+
+
+def read_terminals(text: str) -> tuple[str, ...]:
+    """The arguments of each ``terminal(...)`` in ``__fmu_build``."""
+    return tuple(_all_arguments("terminal", _arguments("__fmu_build", text)))
+
+
+def _all_arguments(name: str, text: str) -> Iterator[str]:
+    for start in re.finditer(rf"\b{name}\s*\(", text):
+        yield _arguments(name, text[start.start() :])
 
 
 def _arguments(name: str, text: str) -> str:

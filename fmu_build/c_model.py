@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
+from dataclasses import fields
 from typing import Any
 
 import sympy
@@ -14,6 +15,7 @@ from .ir import (
     TIME,
     TOKEN_PLACEHOLDER,
     Assignment,
+    Coupling,
     CSources,
     JacobianModel,
     Partials,
@@ -26,11 +28,12 @@ from .slices import needed_for, start_value, tunable_parameters
 C_KEYWORDS = frozenset(C11CodePrinter.reserved_words) | {"inline", "restrict", "bool", "true", "false", "at"}
 
 
-def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str) -> CSources:
+def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str, coupling: Coupling | None = None) -> CSources:
     """variables.h and model.c of ``model``, with the all-zero placeholder where the content hash will stand."""
     names = _identifiers(model.value_references)
-    printer = _Printer(names)
-    return CSources({"variables.h": _header(model, identifier, names), "model.c": _model(model, jacobian, printer)})
+    header = _header(model, identifier, names, n_couplings=0 if coupling is None else 1)
+    text = _model(model, jacobian, _Printer(names))
+    return CSources({"variables.h": header, "model.c": text + _coupling(coupling, model)})
 
 
 def _identifiers(names: Iterable[str]) -> dict[str, str]:
@@ -91,7 +94,7 @@ def local_name(name: str) -> str:
     return "__".join(re.sub(r"\W+", "_", part).strip("_") for part in name.split("/"))
 
 
-def _header(model: SortedModel, identifier: str, names: dict[str, str]) -> str:
+def _header(model: SortedModel, identifier: str, names: dict[str, str], n_couplings: int) -> str:
     tolerance = model.experiment.tolerance or DEFAULT_TOLERANCE
     fields = "\n".join(f"        double {c}; /* {name} */" for name, c in names.items())
     return f"""/* Generated from {model.name}: the table of variables. Its order is the FMI value reference. */
@@ -101,6 +104,7 @@ def _header(model: SortedModel, identifier: str, names: dict[str, str]) -> str:
 #define MODEL_NAME "{identifier}"
 #define MODEL_TOKEN "{TOKEN_PLACEHOLDER}"
 #define DEFAULT_TOLERANCE {tolerance!r}
+#define N_COUPLINGS {n_couplings}
 
 enum {{
     N_STATES = {len(model.states)},
@@ -159,6 +163,18 @@ const char *const relation_text[AT_LEAST_ONE(N_RELATIONS)] = {{{relations}}};
 const unsigned relation_reference[AT_LEAST_ONE(N_RELATIONS)] = {{{", ".join(references)}}};
 
 """ + "\n".join(sections)
+
+
+def _coupling(coupling: Coupling | None, model: SortedModel) -> str:
+    """The table of the coupling's variables, if there is one."""
+    if coupling is None:
+        return ""
+    rows = [
+        f"    .{field.name} = {model.value_references[name]}, /* {name} */"
+        for field in fields(coupling)
+        for name in [getattr(coupling, field.name)]
+    ]
+    return "\n".join(["", "const CouplingInfo coupling_info = {", *rows, "};", ""])
 
 
 Direction = Callable[[Iterable[Partials], _Printer], list[str]]

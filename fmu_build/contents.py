@@ -32,7 +32,7 @@ def contents(
         picture = "terminalsAndIcons/icon.png"
         files = {
             "modelDescription.xml": xml_fmi3.describe(interface, TOKEN_PLACEHOLDER),
-            "terminalsAndIcons/terminalsAndIcons.xml": xml_fmi3.describe_icon(),
+            "terminalsAndIcons/terminalsAndIcons.xml": xml_fmi3.describe_ports(interface),
             f"{SOURCES}buildDescription.xml": xml_fmi3.describe_build(interface.identifier, compiled),
         }
     files |= {f"{SOURCES}{name}": content for name, content in sources.items()}

@@ -17,7 +17,15 @@ import rumoca
 import sympy
 from numpy.typing import NDArray
 
-from .annotations import class_text, read_documentation, read_examples, read_experiment, read_icon
+from .annotations import (
+    class_text,
+    read_couplings,
+    read_documentation,
+    read_examples,
+    read_experiment,
+    read_icon,
+    read_terminals,
+)
 from .errors import BuildError
 from .expressions import ExpressionReader, Sources, unwrap
 from .ir import Equation, FlatModel, Simulation, Variable
@@ -60,6 +68,8 @@ def flatten(path: Path, class_name: str) -> FlatModel:
         experiment=read_experiment(text),
         documentation=read_documentation(text),
         icon=read_icon(text),
+        couplings=read_couplings(text),
+        terminals=read_terminals(text),
         examples=read_examples(text),
     )
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from .ir import DEFAULT_TOLERANCE, TIME, SortedModel, Variable, relation_name
+from .ir import DEFAULT_TOLERANCE, TIME, SortedModel, Terminal, Variable, relation_name
 from .slices import dependencies, start_value, tunable_parameters
 
 GENERATION_TOOL = "OverrunHitch fmu_build"
@@ -56,6 +56,7 @@ class Interface:
     derivatives: Dependencies = field(hash=False)
     initial_unknowns: Dependencies = field(hash=False)
     indicator_sources: Dependencies = field(hash=False)
+    terminals: tuple[Terminal, ...] = ()
 
     @property
     def units(self) -> list[str]:
@@ -63,7 +64,7 @@ class Interface:
         return sorted({e.variable.unit for e in (*self.entries, *self.event_indicators) if e.variable.unit})
 
 
-def expose(model: SortedModel, identifier: str) -> Interface:
+def expose(model: SortedModel, identifier: str, terminals: tuple[Terminal, ...] = ()) -> Interface:
     """The interface of ``model``: everything public, states in any case; of parameters no mere copies."""
     roles = _Roles(model)
     candidates = (Variable(TIME, "Time", unit="s"), *model.variables.values())
@@ -76,6 +77,7 @@ def expose(model: SortedModel, identifier: str) -> Interface:
         entries=entries,
         event_indicators=tuple(roles.entry(model.variables[name]) for name in indicators),
         experiment=_experiment(model),
+        terminals=terminals,
         **_structure(model, entries, indicators),
     )
 

@@ -85,6 +85,47 @@ class Experiment:
 
 
 @dataclass(frozen=True)
+class Coupling:
+    """Names of the variables of a coupling; what each is for stands in runtime/model.h."""
+
+    across: str
+    across_derivative: str
+    extrapolate: str
+    through: str
+    impulse: str
+    work: str
+    mean: str
+    hold: str
+    applied: str
+    energy: str
+
+
+@dataclass(frozen=True)
+class Member:
+    """A variable of a terminal. ``kind`` is FMI's: signal, inflow or outflow."""
+
+    name: str
+    variable: str
+    kind: str
+
+
+@dataclass(frozen=True)
+class Terminal:
+    """Variables that are to be connected together."""
+
+    name: str
+    members: tuple[Member, ...]
+
+
+@dataclass(frozen=True)
+class Ports:
+    """How a class says that it is to be connected."""
+
+    coupling: Coupling | None = None
+    terminals: tuple[Terminal, ...] = ()
+
+
+@dataclass(frozen=True)
 class FlatModel:
     """What the front end delivers: one class, flattened."""
 
@@ -96,6 +137,8 @@ class FlatModel:
     experiment: Experiment
     documentation: str = ""  # HTML of the Documentation annotation
     icon: str = ""  # Modelica text of the Icon annotation
+    couplings: tuple[str, ...] = ()  # arguments of coupling annotations, Modelica text
+    terminals: tuple[str, ...] = ()  # and of terminal annotations
     examples: tuple[str, ...] = ()  # classes with one component of this class, for reference results
 
 

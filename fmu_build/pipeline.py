@@ -16,6 +16,7 @@ from .frontend import flatten, simulate
 from .interface import expose
 from .ir import TOKEN_PLACEHOLDER
 from .jacobian import differentiate
+from .ports import declare
 from .sort import sort
 
 
@@ -38,8 +39,9 @@ def build(
     system = derive(flat)  # EquationSystem: equations, states, relations, parameters
     model = sort(system)  # SortedModel: assignments in the order of computation
     jacobian = differentiate(model)  # JacobianModel: exact partial derivatives
-    generated = print_c(model, jacobian, identifier)  # CSources: variables.h, model.c
-    interface = expose(model, identifier)  # Interface: variables in their roles, dependencies
+    ports = declare(flat, model)  # Ports: coupling and terminals, if the class declares some
+    generated = print_c(model, jacobian, identifier, ports.coupling)  # CSources: variables.h, model.c
+    interface = expose(model, identifier, ports.terminals)  # Interface: variables in their roles, dependencies
 
     simulations = [simulate(modelica, example) for example in flat.examples]  # Simulation: another tool's results
     files = contents(flat, interface, generated, simulations, fmi)  # everything but the binaries

@@ -67,13 +67,25 @@ def describe_build(identifier: str, sources: Sequence[str]) -> bytes:
     return to_bytes(root)
 
 
-def describe_icon() -> bytes:
-    """terminalsAndIcons/terminalsAndIcons.xml: where the icon's picture lies in Modelica's coordinates."""
+def describe_ports(interface: Interface) -> bytes:
+    """terminalsAndIcons/terminalsAndIcons.xml: where the icon's picture lies in Modelica's coordinates, and what is to
+    be connected together.
+
+    The matching rule "plug" connects members of equal name. What is across, such as a speed, is passed on as a signal.
+    What flows, such as a force along the line that both ends lie on (a flow of momentum), has a direction: inflow into
+    the unit or outflow from it, and an output that flows out fits an input that flows in as it is.
+    """
     root = etree.Element("fmiTerminalsAndIcons", fmiVersion="3.0")
     graphics = etree.SubElement(root, "GraphicalRepresentation")
     corners = {"x1": "-100", "y1": "-100", "x2": "100", "y2": "100"}
     etree.SubElement(graphics, "CoordinateSystem", corners, suggestedScalingFactorTo_mm="0.1")
     etree.SubElement(graphics, "Icon", corners)
+    terminals = etree.SubElement(root, "Terminals") if interface.terminals else root
+    for terminal in interface.terminals:
+        element = etree.SubElement(terminals, "Terminal", name=terminal.name, matchingRule="plug")
+        for member in terminal.members:
+            attributes = {"variableName": member.variable, "memberName": member.name, "variableKind": member.kind}
+            etree.SubElement(element, "TerminalMemberVariable", attributes)
     return to_bytes(root)
 
 

@@ -34,3 +34,16 @@ def car_trailer_fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[int, Path
 @pytest.fixture(scope="session")
 def car_trailer_fmu(car_trailer_fmus: dict[int, Path]) -> Path:
     return car_trailer_fmus[2]
+
+
+@pytest.fixture(scope="session")
+def pair_fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[int, dict[str, Path]]:
+    """Car.fmu and Trailer.fmu by version of FMI and name."""
+    folder = tmp_path_factory.mktemp("pair")
+    fmus = {
+        version: {name: folder / f"fmi{version}" / f"{name}.fmu" for name in ("Car", "Trailer")} for version in (2, 3)
+    }
+    for version, units in fmus.items():
+        for name, output in units.items():
+            build(LIBRARY, f"OverrunHitch.Systems.{name}", output, version)
+    return fmus

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "coupling.h"
 #include "validation.h"
 
 const char *const category_name[N_LOG_CATEGORIES] = {
@@ -103,6 +104,7 @@ bool instance_update(Instance *instance, Message *why)
         return false;
     }
     model_outputs(&s->v, s->holds);
+    coupling_show(s);
     s->current = true;
     return true;
 }
@@ -188,6 +190,7 @@ Status instance_set(Instance *instance, const unsigned references[], size_t n, c
     }
     for (size_t i = 0; i < n; i++) {
         double *value = &s->v.at[references[i]];
+        coupling_note(s, references[i]);
         if (*value != values[i]) { /* an input held constant must leave no trace in the integration */
             *value = values[i];
             s->settled = s->current = false;

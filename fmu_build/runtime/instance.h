@@ -3,7 +3,8 @@
  * Everything that changes during a simulation is in State, which holds no pointers: a snapshot is a copy of it.
  * Every function that can fail says why through the log callback, and changes nothing if it refuses its arguments.
  *
- * instance.c has what every simulation needs; stepping.h is about Co-Simulation, continuous.h about event mode and
+ * instance.c has what every simulation needs; stepping.h is about Co-Simulation, coupling.h about what
+ * it adds between units, continuous.h about event mode and
  * Model Exchange, derivatives.h about partial derivatives, snapshot.h about saved states. */
 #ifndef INSTANCE_H
 #define INSTANCE_H
@@ -42,6 +43,28 @@ int category_index(const char *name);
 
 typedef void LogFunction(void *receiver, LogCategory category, Status status, const char *message);
 
+/* What a coupling remembers, see coupling.h: at first of the last step that has led on in time. */
+typedef struct {
+    bool stepped; /* there has been one */
+    bool pending; /* u at its end is not known yet, nor what the coupling has made of it */
+    bool moves;   /* the slope of u in it was the unit's own, so that the end is not a value that the caller has set */
+    bool is_set;  /* u has been set since */
+    double size;  /* its length */
+    double span;  /* the time before it from which the slope was taken: 0: it was given, INFINITY: there was none */
+    double start; /* u at its start */
+    double expected; /* u at its end, as the slope has it */
+    double applied;  /* what the master has applied over it */
+    double work;     /* at its start */
+    double impulse;  /* at its end, as are those that follow */
+    double through;
+    double mean;
+    double hold;
+    double owed; /* the impulse transmitted so far less the one applied */
+    double energy;
+    double period;     /* the longest of the last steps */
+    double next_start; /* u at the start of the step that is being made */
+} Coupling;
+
 typedef struct {
     Use use;
     Phase phase;
@@ -57,6 +80,9 @@ typedef struct {
     EventDensity density;
     Ramp ramp;
     Integrator integrator;
+#if N_COUPLINGS > 0
+    Coupling coupling;
+#endif
 } State;
 
 typedef struct {
@@ -65,6 +91,9 @@ typedef struct {
     LogFunction *log;
     void *receiver;
     bool logs[N_LOG_CATEGORIES]; /* which categories the receiver gets */
+#if N_COUPLINGS > 0
+    State present; /* kept here while a coupling lets the state run ahead */
+#endif
 } Instance;
 
 /* Fills in *instance; errors and warnings are logged, events are not. */

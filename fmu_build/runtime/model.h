@@ -30,6 +30,8 @@
  *   } Variables;
  */
 
+/* and #define N_COUPLINGS 0, or 1: a macro, because it decides what is compiled (see coupling_info below). */
+
 /* ISO C has no arrays of length zero, and a model may have no states or no relations. */
 #define AT_LEAST_ONE(n) ((n) > 0 ? (n) : 1)
 
@@ -62,6 +64,25 @@ extern const char *const relation_text[AT_LEAST_ONE(N_RELATIONS)];
 
 /* The residuals as variables: their indices in Variables.at[]; one 0 if there are none. */
 extern const unsigned relation_reference[AT_LEAST_ONE(N_RELATIONS)];
+
+/* The variables of a coupling, see coupling.h: their indices in Variables.at[]. In the model's equations mean and hold
+ * equal through, and energy is zero; nothing else may depend on these three, because Co-Simulation replaces them. */
+typedef struct {
+    unsigned across;            /* input that a master holds over its steps, such as a speed */
+    unsigned across_derivative; /* input: its derivative by time, 0 if the master does not know it */
+    unsigned extrapolate;       /* parameter: above 0.5, across goes on as it has changed over the last step */
+    unsigned through;           /* output: what is given back, such as a force; through * across is a power */
+    unsigned impulse;           /* state: the integral of through */
+    unsigned work;              /* state: the integral of through * across */
+    unsigned mean;              /* output: mean of through over the last step */
+    unsigned hold;              /* output: what a master should hold over the next step */
+    unsigned applied;           /* parameter: what the master applies: 1 through, 2 mean, 3 hold */
+    unsigned energy;            /* output: energy that the coupling has made so far */
+} CouplingInfo;
+
+#if N_COUPLINGS > 0
+extern const CouplingInfo coupling_info;
+#endif
 
 /* Every function reads and writes v only; each computes all intermediate variables that it needs by itself. */
 

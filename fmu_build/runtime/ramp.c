@@ -14,6 +14,7 @@ void ramp_set(Ramp *ramp, int input, double slope)
 {
     forget_if_over(ramp);
     ramp->slope[input] = slope;
+    ramp->given[input] = true;
 }
 
 void ramp_begin(Ramp *ramp, const Variables *v)

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "coupling.h"
 #include "validation.h"
 
 /* More steps than this between two communication points are taken for a run without end. */
@@ -78,7 +79,7 @@ static bool advance(Instance *instance, double target, bool events_wait, Message
     return true;
 }
 
-static bool integrate(Instance *instance, double target, const StepOptions *options, Message *why)
+bool stepping_integrate(Instance *instance, double target, const StepOptions *options, Message *why)
 {
     State *s = &instance->state;
     const bool events_wait = s->use == CO_SIMULATION_WITH_EVENTS && options->may_return_early;
@@ -111,12 +112,18 @@ Status instance_step(Instance *instance, double time, double size, const StepOpt
     if (!s->after_event) {
         events_watch(&s->density, s->v.time, target);
     }
+    const double start = s->v.time;
+    const bool begun = coupling_begin(instance, size, &why);
     ramp_begin(&s->ramp, &s->v);
-    const bool arrived = integrate(instance, target, options, &why);
+    const bool arrived = begun && stepping_integrate(instance, target, options, &why);
     ramp_end(&s->ramp);
     if (!s->current) { /* the caller may have read them in between */
         model_outputs(&s->v, s->holds);
+        coupling_show(s);
         s->current = true;
+    }
+    if (arrived) {
+        coupling_end(instance, start);
     }
     s->after_event = s->event_waits;
     if (!arrived || !valid_variables(&s->v, &why)) {

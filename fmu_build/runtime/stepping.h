@@ -27,4 +27,7 @@ Status instance_set_slopes(Instance *instance, const unsigned references[], size
  * caller if the instance is used so and the step may return early; otherwise they are handled on the way. */
 Status instance_step(Instance *instance, double time, double size, const StepOptions *options, StepResult *result);
 
+/* For coupling.c: integrate from where the instance is. False: why it has not arrived. */
+bool stepping_integrate(Instance *instance, double target, const StepOptions *options, Message *why);
+
 #endif

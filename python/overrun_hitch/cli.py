@@ -10,6 +10,7 @@ from typing import Annotated
 
 import typer
 
+from overrun_hitch.commands.couple import couple
 from overrun_hitch.commands.crosscheck import crosscheck
 from overrun_hitch.commands.paper import paper
 from overrun_hitch.commands.report import report
@@ -63,5 +64,6 @@ def _hitch(
 app.command()(run)
 app.command()(stability)
 app.command()(crosscheck)
+app.command()(couple)
 app.command()(paper)
 app.command()(report)

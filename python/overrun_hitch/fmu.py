@@ -27,7 +27,10 @@ def is_current(fmu: Path = CAR_TRAILER) -> bool:
 
 
 def build(fmu: Path = CAR_TRAILER) -> None:
-    """Make the FMU from the class of its name in the Modelica library. HitchError with the generator's own line where it cannot be made."""
+    """Make the FMU from the class of its name in the Modelica library.
+
+    HitchError with the generator's own line where it cannot be made.
+    """
     if not LIBRARY.is_dir():
         raise HitchError(f"{LIBRARY} is not there, so {fmu.name} cannot be built; give a built one with --fmu")
     class_name = f"{LIBRARY.name}.Systems.{fmu.stem}"

@@ -21,6 +21,7 @@ equation
   connect(grade, road.grade) annotation(Line(points={{-120,80},{-80,80}}, color={0,0,127}));
   connect(road.g_x, car.g_x) annotation(Line(points={{-60,80},{-10,80},{-10,12},{20,12}}, color={0,0,127}));
   annotation(
+    __fmu_build(terminal(name="hitch", signal(v="v_car"), inflow(F="F_hitch"))),
     experiment(StartTime=0, StopTime=6, Tolerance=1e-6, Interval=0.01),
     Icon(coordinateSystem(extent={{-100,-100},{100,100}}), graphics={
       Rectangle(extent={{-70,30},{70,-20}}, lineColor={0,60,120}, fillColor={200,220,240}, fillPattern=FillPattern.Solid),

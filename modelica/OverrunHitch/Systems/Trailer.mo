@@ -12,9 +12,15 @@ model Trailer "Trailer with an overrun brake behind somebody else's car (Sharp 1
   parameter Units.Force F_pull_max(min=0) = 1e9 "Largest pull of the damper in a drawbar that is pushed in: 0 for none; the paper's damper has no limit";
   parameter Units.Velocity V_0(min=0.1) = 40 "Speed of the trailer at the start; v_car is expected to be the same";
   parameter Units.Length compression_start = 0 "Drawbar compression at the start";
+  parameter Real extrapolation(final unit="1", min=0, max=1) = 1 "1: inside a step v_car goes on as it changed over the last one, 0: it is held (Co-Simulation)";
+  parameter Real applied_force(final unit="1", min=1, max=3) = 3 "What the other side applies, for the account of impulse and energy: 1 F_hitch, 2 F_hitch_mean, 3 F_hitch_hold (Co-Simulation)";
   Interfaces.VelocityInput v_car(start=40) "Speed of the tow ball along the road, positive forward" annotation(Placement(transformation(extent={{140,-20},{100,20}})));
+  Interfaces.AccelerationInput a_car "Acceleration of the tow ball, if the other side knows it: v_car goes on with it inside a step (Co-Simulation); 0: not known" annotation(Placement(transformation(extent={{140,-80},{100,-40}})));
   Interfaces.GradeInput grade "Road grade, rise over horizontal run, positive uphill" annotation(Placement(transformation(extent={{-140,60},{-100,100}})));
   output Units.Force F_hitch = ball.F "Hitch force on the car, positive forward: a pushing trailer gives a positive value";
+  output Units.Force F_hitch_mean = F_hitch "F_hitch as a mean over the last step, for a car that then makes the same step; sums up to the impulse (Model Exchange: F_hitch)";
+  output Units.Force F_hitch_hold = F_hitch "F_hitch to be held over the next step: predicted mean, and the impulse that is still owed (Model Exchange: F_hitch)";
+  output Units.Energy coupling_energy = 0 "Energy that the coupling has made until the start of the last step: what the car has received less what the trailer has given (Model Exchange: 0)";
   output Units.Length compression = drawbar.compression "Drawbar compression x_t - x_c, positive when pushed in";
   output Units.Velocity v_rel = drawbar.v_rel "Rate of compression";
   output Units.Velocity v_trailer = trailer.body.v "Speed of the trailer, positive forward";
@@ -35,6 +41,11 @@ equation
   connect(drawbar.compression, linkage.compression) annotation(Line(points={{0,-20},{0,-60},{-20,-60}}, color={0,0,127}));
   connect(linkage.brake_torque, trailer.brake_torque) annotation(Line(points={{-60,-60},{-95,-60},{-95,40},{-60,40},{-60,20}}, color={0,0,127}));
   annotation(
+    __fmu_build(
+      coupling(across="v_car", acrossDerivative="a_car", extrapolate="extrapolation", through="F_hitch",
+        impulse="ball.impulse", work="ball.work", mean="F_hitch_mean", hold="F_hitch_hold", applied="applied_force",
+        energy="coupling_energy"),
+      terminal(name="hitch", signal(v="v_car"), outflow(F="F_hitch_hold"))),
     experiment(StartTime=0, StopTime=6, Tolerance=1e-6, Interval=0.01),
     Icon(coordinateSystem(extent={{-100,-100},{100,100}}), graphics={
       Rectangle(extent={{-80,30},{20,-20}}, lineColor={0,60,120}, fillColor={225,235,245}, fillPattern=FillPattern.Solid),
@@ -49,6 +60,18 @@ equation
 <p>Speeds and accelerations are positive forward. <code>compression</code> is positive when the drawbar is pushed in.
 <code>F_hitch</code> is the force on the car, positive forward: a pushing trailer gives a positive value.
 <code>grade</code> is positive uphill.</p>
+<h2>Coupling</h2>
+<p>In Co-Simulation values are exchanged at the ends of steps only. Inside a step <code>v_car</code> goes on with the
+derivative that the importer sets (FMI 2) or <code>a_car</code>, where one is given, otherwise as it changed over the
+last step, unless <code>extrapolation</code> is 0. When the true speed is known the states are corrected for the
+difference.</p>
+<p>Three forces are offered, for three ways to step. <code>F_hitch_hold</code> is for a car that makes its step at the
+same time and holds the force over it: the mean force that is expected over that step, and what was not applied so far.
+<code>F_hitch_mean</code> is for a car that makes its step afterwards. <code>F_hitch</code> is the force at the end of
+the step. <code>applied_force</code> tells which one is used; <code>F_hitch_hold</code> and
+<code>coupling_energy</code> depend on it.</p>
+<p>In Model Exchange, and before the first step, the three forces are equal and <code>coupling_energy</code> is 0. Their
+partial derivatives are in any case those of <code>F_hitch</code>, and 0.</p>
 <h2>Limits</h2>
 <p>Forward driving above 0.1 m/s (the tyre law divides by the speed), slip up to about 0.1, no drag, brakes that are
 torques and not friction.</p>

@@ -35,6 +35,14 @@ def evenly(low: float, high: float, count: int) -> list[float]:
     return [*(low + (high - low) * i / (count - 1) for i in range(count - 1)), high]
 
 
+def doubling(low: float, high: float) -> list[float]:
+    """From `low` on, each twice the one before, and `high`; evenly where `low` is not positive."""
+    if low <= 0.0:
+        return evenly(low, high, 5)
+    count = math.ceil(math.log2(high / low))
+    return [*(low * 2.0**i for i in range(count)), high]
+
+
 def _number(option: str, text: str, part: str) -> float:
     try:
         value = float(part)

@@ -12,6 +12,7 @@ from fmu_build.equations import derive
 from fmu_build.frontend import flatten
 from fmu_build.ir import TOKEN_PLACEHOLDER
 from fmu_build.jacobian import differentiate
+from fmu_build.ports import declare
 from fmu_build.sort import sort
 
 # Nonlinear in all that is known, with direct feedthrough, a calculated parameter, a start value that follows from
@@ -56,9 +57,10 @@ class GeneratedModel:
 
 
 def generate(modelica: Path, class_name: str) -> GeneratedModel:
-    model = sort(derive(flatten(modelica, class_name)))
+    flat = flatten(modelica, class_name)
+    model = sort(derive(flat))
     name = class_name.rpartition(".")[2]
-    files = print_c(model, differentiate(model), name).files
+    files = print_c(model, differentiate(model), name, declare(flat, model).coupling).files
     return GeneratedModel(
         name,
         files["variables.h"],

@@ -66,6 +66,7 @@ class Model:
 #define MODEL_NAME "{self.name}"
 #define MODEL_TOKEN "{TOKEN}"
 #define DEFAULT_TOLERANCE {self.tolerance!r}
+#define N_COUPLINGS 0
 enum {{
     N_STATES = {len(self.states)},
     N_INPUTS = {len(self.inputs)},

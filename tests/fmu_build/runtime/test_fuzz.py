@@ -6,17 +6,32 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from coupled_models import TOWED
 from fuzz import fuzzer
+from generated_models import generate
 from runtime_models import CAR_TRAILER, OSCILLATOR, Model
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
-@pytest.mark.parametrize("model", [CAR_TRAILER, OSCILLATOR], ids=lambda m: m.name)
+@pytest.mark.parametrize("model", [CAR_TRAILER, OSCILLATOR, TOWED], ids=lambda m: m.name)
 def test_random_calls(model: Model, fmi: int, tmp_path: Path) -> None:
     try:
         program = fuzzer(model, fmi, tmp_path)
     except subprocess.CalledProcessError:
         pytest.skip("no sanitizers")
+    random_calls(program)
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_random_calls_of_a_generated_model_with_a_coupling(fmi: int, modelica_library: Path, tmp_path: Path) -> None:
+    try:
+        program = fuzzer(generate(modelica_library, "OverrunHitch.Systems.Trailer"), fmi, tmp_path)
+    except subprocess.CalledProcessError:
+        pytest.skip("no sanitizers")
+    random_calls(program)
+
+
+def random_calls(program: Path) -> None:
     result = subprocess.run([program, "7", "10000"], capture_output=True, text=True, timeout=120)
     print(result.stdout)
     assert result.returncode == 0, result.stderr

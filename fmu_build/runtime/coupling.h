@@ -1,0 +1,54 @@
+/* What a unit adds of its own where a master of co-simulation exchanges values at communication points only.
+ *
+ * The input u (across) goes on inside a step as it can be expected to; at the next communication point, where the truth
+ * is known, the states are corrected for the difference. What is given back for it (through) has an integral among the
+ * states, the impulse, so that its mean over a step is known exactly; it is also predicted one step ahead, for masters
+ * that hold it, together with what such a master still owes. The energy that the coupling makes is added up.
+ *
+ * All this is for Co-Simulation. Without a coupling (N_COUPLINGS 0) it costs nothing. */
+#ifndef COUPLING_H
+#define COUPLING_H
+
+#include "instance.h"
+
+#if N_COUPLINGS > 0
+
+/* A variable has been set. */
+void coupling_note(State *s, unsigned reference);
+
+/* Before a step of `size`: settle the account of the last one, now that u is known at its end, and give u a slope.
+ * False: why the instance cannot be there. */
+bool coupling_begin(Instance *instance, double size, Message *why);
+
+/* After a step that began at `start`, with all variables current. */
+void coupling_end(Instance *instance, double start);
+
+/* To be called whenever the outputs have been calculated: puts those of the coupling in their place. */
+void coupling_show(State *s);
+
+#else
+
+static inline void coupling_note(State *s, unsigned reference)
+{
+    (void)s;
+    (void)reference;
+}
+
+static inline bool coupling_begin(Instance *instance, double size, Message *why)
+{
+    (void)instance;
+    (void)size;
+    (void)why;
+    return true;
+}
+
+static inline void coupling_end(Instance *instance, double start)
+{
+    (void)instance;
+    (void)start;
+}
+
+static inline void coupling_show(State *s) { (void)s; }
+
+#endif
+#endif
