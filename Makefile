@@ -1,5 +1,5 @@
 .DEFAULT_GOAL := help
-.PHONY: help run report test test-platforms fuzz fmu fmu-all bench sanitize lint format lock clean
+.PHONY: help run report test test-platforms fuzz fmu fmu-all ssp bench sanitize lint format lock clean
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -36,6 +36,11 @@ build/fmi3/%.fmu: $(SOURCES)
 fmu-all: $(READY)  ## build them for Linux, Windows and macOS (minutes, the first time)
 	for unit in $(UNITS); do for fmi in 2 3; do \
 	    $(BUILD).$$unit -o build/fmi$$fmi/$$unit.fmu --fmi $$fmi --platforms all || exit; done; done
+
+ssp: build/CarTrailer.ssp  ## wire Car and Trailer, with the nine cases' parameters (SSP 1.0)
+
+build/CarTrailer.ssp: build/fmi2/Car.fmu build/fmi2/Trailer.fmu $(wildcard python/overrun_hitch/ssp*.py) python/overrun_hitch/parameters.py
+	$(BIN)/python -m overrun_hitch.ssp build/fmi2/Car.fmu build/fmi2/Trailer.fmu -o $@
 
 bench: $(READY) $(word 1,$(FMUS))  ## measure six seconds in C against what they may take (benchmarks/results.md)
 	$(BIN)/python -m benchmarks.six_seconds $(word 1,$(FMUS))
