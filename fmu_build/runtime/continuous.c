@@ -48,8 +48,11 @@ Status instance_set_time(Instance *instance, double time)
         message_write(&why, "time = %s is not allowed: it must be finite", quantity(time, "s").text);
         return instance_refuse(instance, &why);
     }
-    s->current = s->current && s->v.time == time;
-    s->v.time = time;
+    if (s->v.time != time) {
+        s->current = false;
+        s->settled = s->settled && s->phase == CONTINUOUS; /* in event mode truths follow */
+        s->v.time = time;
+    }
     return STATUS_OK;
 }
 

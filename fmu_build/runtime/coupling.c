@@ -33,6 +33,15 @@ void coupling_show(State *s)
     }
 }
 
+void coupling_still(const State *s, Variables *derivatives)
+{
+    if (s->coupling.stepped) {
+        derivatives->at[coupling_info.mean] = 0.0;
+        derivatives->at[coupling_info.hold] = 0.0;
+        derivatives->at[coupling_info.energy] = 0.0;
+    }
+}
+
 static void begin_first(State *s)
 {
     Coupling *c = &s->coupling;

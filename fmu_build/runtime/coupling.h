@@ -26,6 +26,9 @@ void coupling_end(Instance *instance, double start);
 /* To be called whenever the outputs have been calculated: puts those of the coupling in their place. */
 void coupling_show(State *s);
 
+/* The derivatives by time of those outputs are 0: they are given once for a step, whatever the flow does meanwhile. */
+void coupling_still(const State *s, Variables *derivatives);
+
 #else
 
 static inline void coupling_note(State *s, unsigned reference)
@@ -49,6 +52,12 @@ static inline void coupling_end(Instance *instance, double start)
 }
 
 static inline void coupling_show(State *s) { (void)s; }
+
+static inline void coupling_still(const State *s, Variables *derivatives)
+{
+    (void)s;
+    (void)derivatives;
+}
 
 #endif
 #endif

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "coupling.h"
 #include "validation.h"
 
 static bool at_start(const State *s) { return (s->phase & (INSTANTIATED | INITIALIZING)) != 0; }
@@ -117,6 +118,7 @@ Status instance_time_derivatives(Instance *instance, References variables, const
         d.at[FIRST_INPUT + i] = s->ramp.slope[i];
     }
     model_tangent(&s->v, s->holds, false, &d);
+    coupling_still(s, &d);
     return harvest(&d, variables, values, &why) ? STATUS_OK : instance_refuse(instance, &why);
 }
 

@@ -47,7 +47,7 @@ static const struct {
     [NEW_DISCRETE_STATES] = {"fmi2NewDiscreteStates", ME, EVENT_MODE},
     [ENTER_CONTINUOUS_TIME_MODE] = {"fmi2EnterContinuousTimeMode", ME, EVENT_MODE},
     [COMPLETED_INTEGRATOR_STEP] = {"fmi2CompletedIntegratorStep", ME, CONTINUOUS},
-    [SET_TIME] = {"fmi2SetTime", ME, CONTINUOUS},
+    [SET_TIME] = {"fmi2SetTime", ME, EVENT_MODE | CONTINUOUS},
     [SET_CONTINUOUS_STATES] = {"fmi2SetContinuousStates", ME, CONTINUOUS},
     [GET_DERIVATIVES] = {"fmi2GetDerivatives", ME, READABLE},
     [GET_EVENT_INDICATORS] = {"fmi2GetEventIndicators", ME, READABLE},

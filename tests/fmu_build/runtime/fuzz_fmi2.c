@@ -134,7 +134,7 @@ static void exchange(Unit *u)
                    rarely() ? NULL : &flags[1]);
         break;
     case 4:
-        (void)CALL(fmi2SetTime, CONTINUOUS_, u->exchange, NULL, 0, number(u->time));
+        (void)CALL(fmi2SetTime, EVENT_ | CONTINUOUS_, u->exchange, NULL, 0, number(u->time));
         break;
     case 5:
         if (CALL(fmi2GetContinuousStates, EVALUABLE_, u->exchange && n == N_STATES, x, n, x, n)) {

@@ -344,3 +344,12 @@ def test_many_instances(library: Callable[[Model], Library]) -> None:
         assert u.initialize() == OK
         assert u.step(0.01) == OK
         u.free()
+
+
+def test_time_may_be_set_in_event_mode(unit: Callable[..., Unit]) -> None:
+    """As importers do that set the time of an event before they settle it."""
+    u = unit(CAR_TRAILER, exchange=True)
+    assert u.setup() == OK and u.initialize() == OK
+    assert u.call("fmi2SetTime", ct.c_double(0.25)) == OK
+    assert u.call("fmi2EnterContinuousTimeMode") == OK
+    assert u.get("time")[0] == 0.25

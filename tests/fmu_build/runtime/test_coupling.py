@@ -52,6 +52,14 @@ def test_before_the_first_step_they_are_what_the_equations_make_them(unit: Creat
     assert u.get("mean")[0] == u.get("force")[0] != force
 
 
+def test_what_is_given_for_a_step_does_not_move_inside_it(unit: Create) -> None:
+    """A master that copies output derivatives to inputs must not let a force move that is meant to be held."""
+    u = towed(unit)
+    tow(u, [0.01] * 20, "mean")
+    status, slopes = u.output_slopes("force", *REPLACED)
+    assert status == OK and abs(slopes[0]) > 1.0 and not slopes[1:].any()
+
+
 @pytest.mark.parametrize("applied", [1.0, 2.0, 3.0])
 def test_the_means_sum_up_to_the_impulse(unit: Create, applied: float) -> None:
     u = towed(unit, k_pull=300.0, applied=applied)
