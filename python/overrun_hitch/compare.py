@@ -22,6 +22,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from overrun_hitch.events import compressed_from
+from overrun_hitch.judged import Judged
 from overrun_hitch.linear import ShuntingMode, shunting_mode, wheel_decay_rate
 from overrun_hitch.oscillation import NoOscillation, Oscillation, measure
 from overrun_hitch.parameters import HitchError, Parameters
@@ -38,33 +39,6 @@ RATIO_ALLOWED = 0.0005
 WHEELS_SETTLED = math.log(1e6)  # the wheels' transient starts at the size of the motion itself
 DECAYED = math.log(100.0)  # 40 dB down the rest weighs nothing in the fit, and soon is the integrator's noise
 SETTLED = math.log(1e5)  # below what is allowed for steady values
-
-
-@dataclass(frozen=True)
-class Row:
-    """One quantity from both sides; NaN where a side has none."""
-
-    quantity: str
-    unit: str
-    theory: float
-    simulation: float
-    allowed: float  # of the difference
-    not_judged: str = ""  # the reason, if there is one
-
-    @property
-    def difference(self) -> float:
-        """Simulation less theory."""
-        return self.simulation - self.theory
-
-    @property
-    def differs(self) -> bool:
-        """True where the two were judged and are too far apart."""
-        return not self.not_judged and not abs(self.difference) <= self.allowed
-
-    @property
-    def verdict(self) -> str:
-        """ "agrees", "differs" or "not judged"."""
-        return "not judged" if self.not_judged else "differs" if self.differs else "agrees"
 
 
 @dataclass(frozen=True)
@@ -94,7 +68,7 @@ class _Run:
         return int(np.searchsorted(-np.minimum.accumulate(exponent), measure))
 
 
-def compare(run: xr.Dataset, alone: xr.Dataset) -> list[Row]:
+def compare(run: xr.Dataset, alone: xr.Dataset) -> list[Judged]:
     """Judge a step brake; `alone` is the same one with the car alone (run.car_alone), for A_c.
 
     Growth rate (1/s) and frequency (Hz) are means over the window that was fitted, theory's of the eigenvalue at the
@@ -139,7 +113,7 @@ def _settled_part(run: xr.Dataset) -> _Run:
     )
 
 
-def _mode_rows(part: _Run, window: slice, found: Oscillation | NoOscillation) -> list[Row]:
+def _mode_rows(part: _Run, window: slice, found: Oscillation | NoOscillation) -> list[Judged]:
     growth = frequency = math.nan
     reason = part.out_of_compression
     if part.mode is None:
@@ -154,12 +128,12 @@ def _mode_rows(part: _Run, window: slice, found: Oscillation | NoOscillation) ->
     measured = (found.growth_rate, found.frequency) if isinstance(found, Oscillation) else (math.nan, math.nan)
     growth_allowed = GROWTH_RATE_ALLOWED[0] + GROWTH_RATE_ALLOWED[1] * abs(growth)
     return [
-        Row("shunting growth", "1/s", growth, measured[0], growth_allowed, reason),
-        Row("shunting frequency", "Hz", frequency, measured[1], FREQUENCY_ALLOWED * frequency, reason),
+        Judged("shunting growth", "1/s", growth, measured[0], growth_allowed, reason),
+        Judged("shunting frequency", "Hz", frequency, measured[1], FREQUENCY_ALLOWED * frequency, reason),
     ]
 
 
-def _steady_rows(part: _Run, found: Oscillation | NoOscillation, run: xr.Dataset, alone: xr.Dataset) -> list[Row]:
+def _steady_rows(part: _Run, found: Oscillation | NoOscillation, run: xr.Dataset, alone: xr.Dataset) -> list[Judged]:
     p = part.parameters
     A, D, reason = _steady_values(part, found)
     A_c = _mean_acceleration(alone, part.time[0])
@@ -167,7 +141,7 @@ def _steady_rows(part: _Run, found: Oscillation | NoOscillation, run: xr.Dataset
         theory = steady(p, scenario_of(run).brake_torque)
     except HitchError:
         unknown = "k = r = 0 leave no steady state"
-        return [Row("acceleration A", "m/s2", math.nan, A, math.nan, reason or unknown)]
+        return [Judged("acceleration A", "m/s2", math.nan, A, math.nan, reason or unknown)]
     wheels_c, wheels_t = p.I_c / p.R_c**2, p.I_t / p.R_t**2
     shares = wheels_c / (p.M_c + wheels_c) + wheels_t / (p.M_t + wheels_t)
     relative = STEADY_ALLOWED + part.slip * shares
@@ -175,9 +149,9 @@ def _steady_rows(part: _Run, found: Oscillation | NoOscillation, run: xr.Dataset
     if not A_c:
         reason = reason or "nothing brakes the car"
     return [
-        Row("acceleration A", "m/s2", theory.A, A, relative * abs(theory.A), reason),
-        Row("A / A_c", "1", theory.ratio, ratio, RATIO_ALLOWED, reason),
-        Row("compression D", "m", theory.D, D, relative * (theory.D - p.eps), reason),
+        Judged("acceleration A", "m/s2", theory.A, A, relative * abs(theory.A), reason),
+        Judged("A / A_c", "1", theory.ratio, ratio, RATIO_ALLOWED, reason),
+        Judged("compression D", "m", theory.D, D, relative * (theory.D - p.eps), reason),
     ]
 
 

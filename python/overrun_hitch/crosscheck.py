@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 from overrun_hitch.compare import shunting
 from overrun_hitch.events import Passage, passages
 from overrun_hitch.funnel import Funnel, funnel
+from overrun_hitch.judged import Judged
 from overrun_hitch.oscillation import NoOscillation, Oscillation
 from overrun_hitch.parameters import HitchError, Quantities, Scenario, quantity
 from overrun_hitch.results import VARIABLES, values
@@ -70,40 +71,13 @@ class Distance:
 
 
 @dataclass(frozen=True)
-class Number:
-    """One number of A and of another FMU; NaN where one has none."""
-
-    quantity: str
-    unit: str
-    reference: float
-    value: float
-    allowed: float  # of the difference
-    not_judged: str = ""  # the reason, if there is one
-
-    @property
-    def difference(self) -> float:
-        """The other FMU's less A's."""
-        return self.value - self.reference
-
-    @property
-    def differs(self) -> bool:
-        """True where the two were judged and are too far apart."""
-        return not self.not_judged and not abs(self.difference) <= self.allowed
-
-    @property
-    def verdict(self) -> str:
-        """ "agrees", "differs" or "not judged"."""
-        return "not judged" if self.not_judged else "differs" if self.differs else "agrees"
-
-
-@dataclass(frozen=True)
 class Comparison:
     """One FMU against A."""
 
     label: str
     distances: tuple[Distance, ...]  # in the order of results.VARIABLES
-    numbers: tuple[Number, ...]  # growth rate, frequency, end of the run
-    passages: tuple[Number, ...]  # times (s) at which the drawbar passes 0 or eps
+    numbers: tuple[Judged, ...]  # growth rate, frequency, end of the run
+    passages: tuple[Judged, ...]  # times (s) at which the drawbar passes 0 or eps
 
     @property
     def differing(self) -> list[str]:
@@ -140,7 +114,7 @@ def compare_runs(reference: xr.Dataset, run: xr.Dataset, label: str, allowed: Al
     for one in (reference, run):
         if one.sizes["time"] < 2:
             raise HitchError(f"{one.attrs['fmu']} does not run: it is at rest at t = 0")
-    ends = Number("end of the run", "s", float(reference["time"][-1]), float(run["time"][-1]), 0.0)
+    ends = Judged("end of the run", "s", float(reference["time"][-1]), float(run["time"][-1]), 0.0)
     both = slice(0, min(reference.sizes["time"], run.sizes["time"]))
     reference, run = reference.isel(time=both), run.isel(time=both)
     return Comparison(
@@ -177,14 +151,14 @@ def _distance(reference: xr.Dataset, run: xr.Dataset, name: str, allowed: Allowe
     )
 
 
-def _shunting_numbers(reference: xr.Dataset, run: xr.Dataset, label: str) -> tuple[Number, Number]:
+def _shunting_numbers(reference: xr.Dataset, run: xr.Dataset, label: str) -> tuple[Judged, Judged]:
     (a, reason), (b, other_reason) = _shunting(reference), _shunting(run)
     reason = reason or (other_reason and f"{label}: {other_reason}")
     (growth, frequency), (other_growth, other_frequency) = _rates(a), _rates(b)
     growth_allowed = GROWTH_RATE_ALLOWED[0] + GROWTH_RATE_ALLOWED[1] * abs(growth)
     return (
-        Number("shunting growth", "1/s", growth, other_growth, growth_allowed, reason),
-        Number("shunting frequency", "Hz", frequency, other_frequency, FREQUENCY_ALLOWED * frequency, reason),
+        Judged("shunting growth", "1/s", growth, other_growth, growth_allowed, reason),
+        Judged("shunting frequency", "Hz", frequency, other_frequency, FREQUENCY_ALLOWED * frequency, reason),
     )
 
 
@@ -209,7 +183,7 @@ def _is_finite(run: xr.Dataset) -> bool:
     return all(np.isfinite(values(run, name)).all() for name in VARIABLES)
 
 
-def _passage_numbers(a: Sequence[Passage], b: Sequence[Passage], allowed: Allowed) -> tuple[Number, ...]:
+def _passage_numbers(a: Sequence[Passage], b: Sequence[Passage], allowed: Allowed) -> tuple[Judged, ...]:
     """Each passage of A with that of the other FMU, in order; those of one alone, or of different kinds, differ."""
     rows: list[tuple[str, float, float]] = []
     for ours, theirs in zip_longest(a, b):
@@ -218,4 +192,4 @@ def _passage_numbers(a: Sequence[Passage], b: Sequence[Passage], allowed: Allowe
         else:
             rows += [(ours.kind, ours.time, math.nan)] if ours else []
             rows += [(theirs.kind, math.nan, theirs.time)] if theirs else []
-    return tuple(Number(f"passes {kind}", "s", here, there, allowed.funnel_time) for kind, here, there in rows)
+    return tuple(Judged(f"passes {kind}", "s", here, there, allowed.funnel_time) for kind, here, there in rows)

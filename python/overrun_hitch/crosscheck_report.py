@@ -12,7 +12,8 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from overrun_hitch.crosscheck import LABELS, Allowed, Comparison, Crosscheck, Distance, Number
+from overrun_hitch.crosscheck import LABELS, Allowed, Comparison, Crosscheck, Distance
+from overrun_hitch.judged import Judged
 from overrun_hitch.results import values
 from overrun_hitch.run import Settings
 from overrun_hitch.terminal import COLOURS, NARROW
@@ -72,10 +73,10 @@ def document(
 
 
 def _comparison(comparison: Comparison) -> dict[str, Any]:
-    def row(judged: Distance | Number) -> dict[str, Any]:
+    def row(judged: Distance | Judged) -> dict[str, Any]:
         return {**asdict(judged), "verdict": judged.verdict}
 
-    def number(judged: Number) -> dict[str, Any]:
+    def number(judged: Judged) -> dict[str, Any]:
         return {**row(judged), "difference": judged.difference}
 
     return {
@@ -110,7 +111,7 @@ def _show_figure(console: Console, check: Crosscheck) -> None:
             far = f"{_small(distance.largest)} {distance.unit} away at {_number(distance.at)} s"
             console.print(f"{label} {distance.variable}: {far}, {_coloured(distance.verdict)}")
         for label, number in numbers:
-            pair = f"{_number(number.reference)} and {_number(number.value)}"
+            pair = f"{_number(number.expected)} and {_number(number.found)}"
             console.print(f"{label} {number.quantity} ({number.unit}): {pair}, {_coloured(number.verdict)}")
     for c in check.comparisons:
         if len(c.passages) > MOST_PASSAGES:
@@ -127,10 +128,10 @@ def _distance_table(rows: Sequence[tuple[str, Distance]]) -> Table:
     return table
 
 
-def _number_table(rows: Sequence[tuple[str, Number]]) -> Table:
+def _number_table(rows: Sequence[tuple[str, Judged]]) -> Table:
     table = _table("", "A", "other", "difference", "allowed")
     for label, row in rows:
-        cells = (_number(row.reference), _number(row.value), _small(row.difference), _small(row.allowed))
+        cells = (_number(row.expected), _number(row.found), _small(row.difference), _small(row.allowed))
         table.add_row(label, row.quantity, row.unit, *cells, _coloured(row.verdict))
     return table
 
@@ -145,7 +146,7 @@ def _table(what: str, *headings: str) -> Table:
     return table
 
 
-def _farthest(passages: Sequence[Number]) -> list[Number]:
+def _farthest(passages: Sequence[Judged]) -> list[Judged]:
     """The passages farthest apart, those of one FMU alone before all others, in order of time."""
     order = sorted(passages, key=lambda row: -math.inf if math.isnan(row.difference) else -abs(row.difference))
     chosen = order[:MOST_PASSAGES]

@@ -12,7 +12,7 @@ import xarray as xr
 from rich.console import Console
 from rich.table import Table
 
-from overrun_hitch.compare import Row
+from overrun_hitch.judged import Judged
 from overrun_hitch.parameters import Scenario
 
 PATIENCE = 2.0  # s, after which people wonder
@@ -42,7 +42,7 @@ def patience(what: str) -> Iterator[Callable[[str], None]]:
         status.stop()
 
 
-def show(scenario: Scenario, result: xr.Dataset, rows: Sequence[Row], paths: Sequence[Path]) -> None:
+def show(scenario: Scenario, result: xr.Dataset, rows: Sequence[Judged], paths: Sequence[Path]) -> None:
     """Print theory against simulation, what there is to say about it, and the files written."""
     console = Console(highlight=False)
     last = float(result["time"][-1])
@@ -52,7 +52,7 @@ def show(scenario: Scenario, result: xr.Dataset, rows: Sequence[Row], paths: Seq
     else:
         for row in rows:
             console.print(
-                f"{row.quantity} ({row.unit}): theory {_number(row.theory)}, simulation {_number(row.simulation)}, "
+                f"{row.quantity} ({row.unit}): theory {_number(row.expected)}, simulation {_number(row.found)}, "
                 f"[{COLOURS[row.verdict]}]{row.verdict}[/]"
             )
     for reason in dict.fromkeys(row.not_judged for row in rows if row.not_judged):
@@ -63,7 +63,7 @@ def show(scenario: Scenario, result: xr.Dataset, rows: Sequence[Row], paths: Seq
         console.print(f"wrote {path}", markup=False, soft_wrap=True)
 
 
-def _table(rows: Sequence[Row]) -> Table:
+def _table(rows: Sequence[Judged]) -> Table:
     table = Table(box=None, pad_edge=False)
     table.add_column("")
     table.add_column("unit")
@@ -74,8 +74,8 @@ def _table(rows: Sequence[Row]) -> Table:
         table.add_row(
             row.quantity,
             row.unit,
-            _number(row.theory),
-            _number(row.simulation),
+            _number(row.expected),
+            _number(row.found),
             _small(row.difference),
             _small(row.allowed),
             f"[{COLOURS[row.verdict]}]{row.verdict}[/]",

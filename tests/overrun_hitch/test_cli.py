@@ -16,7 +16,7 @@ import overrun_hitch
 from overrun_hitch import cli, fmu, terminal
 from overrun_hitch.commands.options import assignments
 from overrun_hitch.commands.run import asked_scenario
-from overrun_hitch.compare import Row
+from overrun_hitch.judged import Judged
 from overrun_hitch.parameters import FIGURES, HitchError
 
 BAD = [
@@ -175,7 +175,7 @@ def test_piped_and_narrow_output_stays_readable(
 ) -> None:
 
     monkeypatch.setenv("COLUMNS", width)
-    rows = [Row("shunting frequency", "Hz", 1.63, 1.63, 1e-3), Row("A / A_c", "1", 0.95, 0.9, 1e-3, "a reason")]
+    rows = [Judged("shunting frequency", "Hz", 1.63, 1.63, 1e-3), Judged("A / A_c", "1", 0.95, 0.9, 1e-3, "a reason")]
     result = xr.Dataset(coords={"time": [0.0, 6.0]}, attrs={"ended": "duration"})
     terminal.show(FIGURES["8"], result, rows, [Path("build/run/" + "x" * 80)])
     out = capsys.readouterr().out

@@ -7,7 +7,8 @@ from collections.abc import Callable
 import pytest
 import xarray as xr
 
-from overrun_hitch.compare import Row, compare
+from overrun_hitch.compare import compare
+from overrun_hitch.judged import Judged
 from overrun_hitch.parameters import CASES, FIGURES, Scenario
 from overrun_hitch.run import car_alone
 from tests.oracles import radau
@@ -19,7 +20,7 @@ def scenario(case: str = "ii", **changes: float) -> Scenario:
     return Scenario(name="test", parameters=CASES[case].changed(changes))
 
 
-def compared(run: OracleRun, subject: Scenario, milliseconds: int = 10) -> dict[str, Row]:
+def compared(run: OracleRun, subject: Scenario, milliseconds: int = 10) -> dict[str, Judged]:
     rows = compare(run(subject, milliseconds), run(car_alone(subject), milliseconds))
     return {row.quantity: row for row in rows}
 
@@ -34,7 +35,7 @@ def test_theory_and_simulation_agree_while_the_drawbar_stays_in_compression(
     assert {row.verdict for row in rows.values()} == {"agrees"}
     # Ten times closer than what is allowed: what is left is slip, not luck.
     assert abs(rows["shunting growth"].difference) < 1e-3
-    assert abs(rows["shunting frequency"].difference) < 4e-4 * rows["shunting frequency"].theory
+    assert abs(rows["shunting frequency"].difference) < 4e-4 * rows["shunting frequency"].expected
 
 
 @pytest.mark.parametrize("milliseconds", [1, 100])
@@ -50,7 +51,7 @@ def test_the_verdict_does_not_depend_on_sampling(oracle_run: OracleRun, millisec
 def test_self_excitation_is_judged_when_it_starts_small(oracle_run: OracleRun, C: float) -> None:
     rows = compared(oracle_run, scenario(C=C, compression_start=0.025))
     assert {row.verdict for row in rows.values()} == {"agrees"}
-    assert rows["shunting growth"].simulation > 0.1
+    assert rows["shunting growth"].found > 0.1
 
 
 @pytest.mark.parametrize("figure", ["6a", "6b", "10"])
@@ -59,8 +60,8 @@ def test_no_verdict_where_the_drawbar_leaves_compression(oracle_run: OracleRun, 
     for row in rows.values():
         assert row.verdict == "not judged"
         assert row.not_judged.startswith("drawbar leaves compression at t = 0.")
-        assert row.theory == row.theory
-        assert row.simulation == row.simulation
+        assert row.expected == row.expected
+        assert row.found == row.found
 
 
 def test_no_verdict_where_a_clearance_comes_before_compression(oracle_run: OracleRun) -> None:
@@ -73,8 +74,8 @@ def test_no_verdict_where_a_clearance_comes_before_compression(oracle_run: Oracl
 
 def test_claim_10_frequency_of_figures_6(oracle_run: OracleRun) -> None:
     near, higher = (compared(oracle_run, FIGURES[name])["shunting frequency"] for name in ("6b", "6a"))
-    assert near.simulation == pytest.approx(near.theory, rel=0.06)
-    assert higher.simulation > 1.15 * higher.theory
+    assert near.found == pytest.approx(near.expected, rel=0.06)
+    assert higher.found > 1.15 * higher.expected
 
 
 def test_heavy_damping_leaves_the_steady_values_to_judge(oracle_run: OracleRun) -> None:

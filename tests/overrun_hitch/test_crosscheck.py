@@ -18,10 +18,11 @@ from matplotlib.figure import Figure
 
 from fmu_build.pipeline import build
 from overrun_hitch import cli, crosscheck_report
-from overrun_hitch.crosscheck import Allowed, Comparison, Crosscheck, Number, compare_runs
+from overrun_hitch.crosscheck import Allowed, Comparison, Crosscheck, compare_runs
 from overrun_hitch.crosscheck_figures import LINES, draw, files
 from overrun_hitch.events import passages
 from overrun_hitch.funnel import funnel
+from overrun_hitch.judged import Judged
 from overrun_hitch.parameters import FIGURES
 from overrun_hitch.results import VARIABLES
 from overrun_hitch.run import step_brake
@@ -62,7 +63,7 @@ def with_values(run: xr.Dataset, name: str, values: np.ndarray) -> xr.Dataset:
     return run.assign({name: ("time", values, run[name].attrs)})
 
 
-def number(comparison: Comparison, quantity: str) -> Number:
+def number(comparison: Comparison, quantity: str) -> Judged:
     (found,) = (row for row in comparison.numbers if row.quantity == quantity)
     return found
 

@@ -64,7 +64,7 @@ def test_no_verdict_where_the_drawbar_leaves_compression(car_trailer_fmu: Path, 
     scenario = FIGURES[figure]
     rows = compare(step_brake(scenario, fmu=car_trailer_fmu), step_brake(car_alone(scenario), fmu=car_trailer_fmu))
     assert {row.verdict for row in rows} == {"not judged"}
-    assert all(np.isfinite([row.theory, row.simulation]).all() for row in rows)
+    assert all(np.isfinite([row.expected, row.found]).all() for row in rows)
 
 
 def test_deceleration_ratio_of_case_ii_three_ways(car_trailer_fmu: Path) -> None:
@@ -72,8 +72,8 @@ def test_deceleration_ratio_of_case_ii_three_ways(car_trailer_fmu: Path) -> None
     scenario = FIGURES["8"]
     rows = compare(step_brake(scenario, fmu=car_trailer_fmu), step_brake(car_alone(scenario), fmu=car_trailer_fmu))
     (ratio,) = (row for row in rows if row.quantity == "A / A_c")
-    assert ratio.simulation == pytest.approx(0.950, abs=5e-4)
-    assert ratio.theory == steady(scenario.parameters, 1000.0).ratio == pytest.approx(0.950, abs=5e-4)
+    assert ratio.found == pytest.approx(0.950, abs=5e-4)
+    assert ratio.expected == steady(scenario.parameters, 1000.0).ratio == pytest.approx(0.950, abs=5e-4)
 
 
 def test_the_car_alone_feels_no_trailer(car_trailer_fmu: Path) -> None:

@@ -9,7 +9,8 @@ import xarray as xr
 from scipy.optimize import brentq
 from scipy.signal import find_peaks
 
-from overrun_hitch.compare import Row, compare
+from overrun_hitch.compare import compare
+from overrun_hitch.judged import Judged
 from overrun_hitch.linear import shunting_mode
 from overrun_hitch.paper.claim import Claim, Part, above, below, near
 from overrun_hitch.paper.study import BRAKE_TORQUE, Study
@@ -31,7 +32,7 @@ def claim_10(study: Study) -> Claim:
     frequencies = {name: peak_frequency(study.runs[name]) / expected for name in ("6a", "6b")}
     rows = _rows(study, "6b")
     parts = (
-        Part("6b: growth rate", "1/s", "build up", above(0.0), rows["shunting growth"].theory, _growth(study, "6b")),
+        Part("6b: growth rate", "1/s", "build up", above(0.0), rows["shunting growth"].expected, _growth(study, "6b")),
         Part(
             "6a: swing in the last 2 s over that in the first",
             "1",
@@ -85,12 +86,10 @@ def claim_12(study: Study) -> Claim:
     for name in ("7", "8"):
         rows = _rows(study, name)
         growth, frequency = rows["shunting growth"], rows["shunting frequency"]
-        close = near(round(growth.theory, 4), READABLE_GROWTH)
-        parts.append(Part(f"figure {name}: growth rate", "1/s", "as linear", close, growth.theory, growth.simulation))
-        close = near(round(frequency.theory, 4), READABLE_FREQUENCY * frequency.theory)
-        parts.append(
-            Part(f"figure {name}: frequency", "Hz", "as linear", close, frequency.theory, frequency.simulation)
-        )
+        close = near(round(growth.expected, 4), READABLE_GROWTH)
+        parts.append(Part(f"figure {name}: growth rate", "1/s", "as linear", close, growth.expected, growth.found))
+        close = near(round(frequency.expected, 4), READABLE_FREQUENCY * frequency.expected)
+        parts.append(Part(f"figure {name}: frequency", "Hz", "as linear", close, frequency.expected, frequency.found))
     text = "Figures 7 and 8: growth or decay and frequency agree with the linear theory."
     remark = (
         "In figure 7 the drawbar leaves compression for moments, where linear theory is silent; hence its frequency."
@@ -155,12 +154,12 @@ def peak_frequency(run: xr.Dataset) -> float:
     return float((len(peaks) - 1) / (time[peaks[-1]] - time[peaks[0]])) if len(peaks) > 2 else NOTHING
 
 
-def _rows(study: Study, figure: str) -> dict[str, Row]:
+def _rows(study: Study, figure: str) -> dict[str, Judged]:
     return {row.quantity: row for row in compare(study.runs[figure], study.alone[figure])}
 
 
 def _growth(study: Study, figure: str) -> float:
-    return _rows(study, figure)["shunting growth"].simulation
+    return _rows(study, figure)["shunting growth"].found
 
 
 def _swelling(study: Study, figure: str) -> float:

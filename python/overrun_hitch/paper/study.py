@@ -110,5 +110,5 @@ def _theoretical_steady(parameters: Parameters) -> SteadyState:
 def _measured_steady(unit: HitchUnit, parameters: Parameters) -> SteadyState:
     scenario = Scenario(name="steady braking", parameters=parameters, brake_torque=BRAKE_TORQUE)
     rows = compare(brake(unit, scenario, SETTINGS), brake(unit, car_alone(scenario), SETTINGS))
-    found = {row.quantity: row.simulation for row in rows}
+    found = {row.quantity: row.found for row in rows}
     return SteadyState(found["A / A_c"], found["acceleration A"], found["compression D"])
