@@ -11,6 +11,7 @@ import fmpy
 import numpy as np
 import pytest
 from fmpy.fmi2 import fmi2CoSimulation
+from numpy.random import default_rng
 
 from tests.unit import Unit
 
@@ -36,6 +37,22 @@ def test_a_million_steps_of_a_sixtieth_second(unit: Unit) -> None:
     assert abs(time - count * step) > 1e-9  # the caller's sum has drifted off, and was accepted
     np.testing.assert_allclose(unit.get("v_car", "v_trailer", "compression"), [40.0, 40.0, 0.0], atol=1e-9)
     assert unit.get("car.body.x")[0] == pytest.approx(40.0 * time, rel=1e-9)
+
+
+def test_coasting_with_any_parameters(unit: Unit) -> None:
+    """Nothing loads the drawbar: its compression is zero but for rounding, on both switching surfaces all the time."""
+    random = default_rng(1)
+    for _ in range(80):
+        radii = {name: random.uniform(0.2, 0.5) for name in ("R_c", "R_t")}
+        masses = {"M_c": random.uniform(500.0, 2500.0), "M_t": random.uniform(200.0, 2000.0)}
+        drawbar = {"C": random.choice([0.0, 20.0, 500.0, 2500.0]), "eps": random.choice([0.0, 0.0, 0.1])}
+        unit.slave.reset()
+        unit.start(
+            V_0=random.uniform(5.0, 45.0), F_pull_max=random.choice([1e9, 1e9, 0.0]), **radii, **masses, **drawbar
+        )
+        for n in range(100):
+            unit.slave.doStep(n * 0.1, 0.1)
+        assert abs(unit.get("compression")[0]) < 1e-12
 
 
 @pytest.mark.parametrize("start", [-5.0, 1e4])

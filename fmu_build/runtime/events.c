@@ -13,11 +13,26 @@ static const double BATCH_SHARE = 1e-3;
 
 enum { NO_RELATION = -1 };
 
+/* A residual that is zero but for rounding leaves the truth as it is: a drawbar that nothing loads stays on its surface
+ * for a whole run, now on this side of it and now on the other by 1e-17 m, and each time would be an event. */
+static const double ROUNDING = 1e-12; /* of the relation's nominal value */
+
+static double band(int relation) { return ROUNDING * variable_info[relation_reference[relation]].nominal; }
+
+static bool truth(int relation, double z, bool held) { return held ? z >= -band(relation) : z > band(relation); }
+
+static void take_truths(const double z[], const bool held[], bool truths[])
+{
+    for (int i = 0; i < N_RELATIONS; i++) {
+        truths[i] = truth(i, z[i], held[i]);
+    }
+}
+
 static int changed_relation(Variables *v, const bool holds[], double z[])
 {
     model_relations(v, holds, z);
     for (int i = 0; i < N_RELATIONS; i++) {
-        if ((z[i] > 0.0) != holds[i]) {
+        if (truth(i, z[i], holds[i]) != holds[i]) {
             return i;
         }
     }
@@ -33,9 +48,7 @@ bool events_settle(Variables *v, bool holds[], Message *why)
         if (changed == NO_RELATION) {
             return true;
         }
-        for (int i = 0; i < N_RELATIONS; i++) {
-            holds[i] = z[i] > 0.0;
-        }
+        take_truths(z, holds, holds);
     }
     message_write(why, "the relation %s does not settle at t = %s: its truth depends on itself", relation_text[changed],
                   quantity(v->time, "s").text);
@@ -59,9 +72,9 @@ static bool leaves_surface(const Rodas *r, Variables *v, const bool holds[], con
     bool leaves = false;
     (void)changed_at(r, 0.0, v, holds, start);
     for (int i = 0; i < N_RELATIONS; i++) {
-        const bool truth = z[i] > 0.0;
-        const bool changes = truth != holds[i] && start[i] == 0.0;
-        truths[i] = changes ? truth : holds[i];
+        const bool now = truth(i, z[i], holds[i]);
+        const bool changes = now != holds[i] && fabs(start[i]) <= band(i);
+        truths[i] = changes ? now : holds[i];
         leaves = leaves || changes;
     }
     return leaves;
@@ -105,9 +118,7 @@ bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving,
     }
     event->fraction = bisect(r, share(sample - 1), share(sample), v, holds);
     (void)changed_at(r, event->fraction, v, holds, z);
-    for (int i = 0; i < N_RELATIONS; i++) {
-        event->truths[i] = z[i] > 0.0;
-    }
+    take_truths(z, holds, event->truths);
     return true;
 }
 

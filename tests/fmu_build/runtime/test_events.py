@@ -102,7 +102,7 @@ def test_time_event_without_states(unit: Callable[..., Unit]) -> None:
     assert u.initialize() == OK
     assert u.run(0.5, 0.1, ["y"])[:, 0].tolist() == [1.0, 1.0, 1.0, 2.0, 2.0, 2.0]
     [(_, time)] = u.event_times()
-    assert 0.255 < time < 0.255 + 1e-15
+    assert 0.255 < time < 0.255 + 2e-12  # where the residual, here in s, leaves the band that is taken for rounding
     assert u.set(u=-3.0) == OK
     assert u.get("y")[0] == -6.0
 
