@@ -13,8 +13,9 @@ static const double BATCH_SHARE = 1e-3;
 
 enum { NO_RELATION = -1 };
 
-/* A residual that is zero but for rounding leaves the truth as it is: a drawbar that nothing loads stays on its surface
- * for a whole run, now on this side of it and now on the other by 1e-17 m, and each time would be an event. */
+/* Inside a step a residual that is zero but for rounding leaves the truth as it is: a drawbar that nothing loads stays
+ * on its surface for a whole run, now on this side of it and now on the other by 1e-17 m, and each time would be an
+ * event. What holds where a run is started, or where something has been set, is told by the sign alone. */
 static const double ROUNDING = 1e-12; /* of the relation's nominal value */
 
 static double band(int relation) { return ROUNDING * variable_info[relation_reference[relation]].nominal; }
@@ -28,27 +29,22 @@ static void take_truths(const double z[], const bool held[], bool truths[])
     }
 }
 
-static int changed_relation(Variables *v, const bool holds[], double z[])
-{
-    model_relations(v, holds, z);
-    for (int i = 0; i < N_RELATIONS; i++) {
-        if (truth(i, z[i], holds[i]) != holds[i]) {
-            return i;
-        }
-    }
-    return NO_RELATION;
-}
-
 bool events_settle(Variables *v, bool holds[], Message *why)
 {
     double z[AT_LEAST_ONE(N_RELATIONS)];
     int changed = NO_RELATION;
     for (int round = 0; round < 2 * N_RELATIONS + 2; round++) {
-        changed = changed_relation(v, holds, z);
+        model_relations(v, holds, z);
+        changed = NO_RELATION;
+        for (int i = 0; i < N_RELATIONS; i++) {
+            if ((z[i] > 0.0) != holds[i]) {
+                holds[i] = z[i] > 0.0;
+                changed = i;
+            }
+        }
         if (changed == NO_RELATION) {
             return true;
         }
-        take_truths(z, holds, holds);
     }
     message_write(why, "the relation %s does not settle at t = %s: its truth depends on itself", relation_text[changed],
                   quantity(v->time, "s").text);
@@ -61,7 +57,13 @@ static bool changed_at(const Rodas *r, double fraction, Variables *v, const bool
     v->time = r->time + fraction * r->length;
     ramp_apply(r->ramp, v);
     rodas_dense(r, fraction, &v->at[FIRST_STATE]);
-    return changed_relation(v, holds, z) != NO_RELATION;
+    model_relations(v, holds, z);
+    for (int i = 0; i < N_RELATIONS; i++) {
+        if (truth(i, z[i], holds[i]) != holds[i]) {
+            return true;
+        }
+    }
+    return false;
 }
 
 /* The truths where a trial leaves the surfaces on which it starts; false if it starts on none of those that it crosses
