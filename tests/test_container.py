@@ -43,12 +43,7 @@ toolbox_runs_here = pytest.mark.skipif(
 class Unit3(Unit):
     """The same calls to an instance of FMI 3."""
 
-    def __init__(self, fmu: Path, folder: Path) -> None:
-        self.description = fmpy.read_model_description(str(fmu))
-        self.references = {v.name: v.valueReference for v in self.description.modelVariables}
-        fmpy.extract(str(fmu), unzipdir=str(folder))
-        identifier = self.description.coSimulation.modelIdentifier
-        self.slave = FMU3Slave(guid=self.description.guid, unzipDirectory=str(folder), modelIdentifier=identifier)
+    slave_class = FMU3Slave
 
     def set(self, **values: float) -> None:
         self.slave.setFloat64([self.references[name] for name in values], list(values.values()))

@@ -12,12 +12,16 @@ from fmpy.fmi2 import FMU2Slave
 class Unit:
     """``slave`` is fmpy's thin wrapper of the C functions; here are names instead of value references."""
 
+    slave_class = FMU2Slave
+
     def __init__(self, fmu: Path, folder: Path) -> None:
         self.description = fmpy.read_model_description(str(fmu))
         self.references = {v.name: v.valueReference for v in self.description.modelVariables}
         fmpy.extract(str(fmu), unzipdir=str(folder))
         identifier = self.description.coSimulation.modelIdentifier
-        self.slave = FMU2Slave(guid=self.description.guid, unzipDirectory=str(folder), modelIdentifier=identifier)
+        self.slave = self.slave_class(
+            guid=self.description.guid, unzipDirectory=str(folder), modelIdentifier=identifier
+        )
 
     def set(self, **values: float) -> None:
         self.slave.setReal([self.references[name] for name in values], list(values.values()))

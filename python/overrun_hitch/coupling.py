@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from overrun_hitch.parameters import Parameters
-from overrun_hitch.unit import Unit, opened
+from overrun_hitch.unit import StepRefused, Unit, opened
 
 Floats = NDArray[np.float64]
 
@@ -147,7 +147,7 @@ def _iterated(pair: Pair, scheme: Scheme, time: float, H: float, force: float) -
             back_car()
             back_trailer()
         else:
-            raise ArithmeticError(f"at t = {time:g} s {ITERATIONS} iterations with H = {H:g} s do not converge")
+            raise StepRefused(f"at t = {time:g} s {ITERATIONS} iterations with H = {H:g} s do not converge")
     return force, force
 
 

@@ -47,7 +47,7 @@ def draw_coupling(study: CouplingStudy) -> Figure:
             if points[0].expected > 0.0:
                 growth.plot(H, [point.expected for point in points], **CLOSED_FORM)
         _label(growth, f"Error of the growth rate (1/s)\nof {study.whole.growth_rate:.3g} 1/s", LEAST_GROWTH)
-        _label(energy, "Created energy (J)", LEAST_ENERGY)
+        _label(energy, "Created energy (J)\n$10^{-6}$: that or less", LEAST_ENERGY)
         energy.set_xlabel("Communication step $H$ (ms)")
         steps = sorted({MILLI * point.H for point in study.points})
         energy.set_xticks(steps, [f"{H:g}" for H in steps])

@@ -18,7 +18,7 @@ from overrun_hitch.linear import shunting_mode
 from overrun_hitch.oscillation import NoOscillation, measure
 from overrun_hitch.parameters import HitchError, Parameters
 from overrun_hitch.steady import steady
-from overrun_hitch.unit import HitchUnit
+from overrun_hitch.unit import HitchUnit, StepRefused
 
 DURATION = 6.0  # s
 ONSET = 0.1  # s: the wheels have taken up the brake torque
@@ -105,17 +105,14 @@ def gentle_braking(parameters: Parameters, V: float) -> tuple[Parameters, float]
 def _point(pair: Pair, scheme: Scheme, parameters: Parameters, V: float, H: float) -> Point:
     check_step(H)
     start, torque = gentle_braking(parameters, V)
-    run = pair.run(scheme, start, torque, DURATION, H, RELATIVE_TOLERANCE)
+    expected = rise_per_second(scheme, parameters) * H
+    try:
+        run = pair.run(scheme, start, torque, DURATION, H, RELATIVE_TOLERANCE)
+    except StepRefused:  # the coupling has let the motion grow until the model ends, or does not converge
+        return Point(scheme, H, math.nan, math.nan, math.nan, math.nan, expected)
     growth, frequency = _oscillation(run)
-    return Point(
-        scheme=scheme,
-        H=H,
-        growth_rate=growth,
-        frequency=frequency,
-        created=float(run.created[-1]),
-        told=float(run.values["coupling_energy"][-1]),
-        expected=rise_per_second(scheme, parameters) * H,
-    )
+    created, told = float(run.created[-1]), float(run.values["coupling_energy"][-1])
+    return Point(scheme, H, growth, frequency, created, told, expected)
 
 
 def _oscillation(run: Coupled) -> tuple[float, float]:

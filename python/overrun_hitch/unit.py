@@ -33,14 +33,19 @@ from overrun_hitch.results import VARIABLES
 Floats = NDArray[np.float64]
 
 
+class StepRefused(HitchError):
+    """The unit could not make a step; the message is its own."""
+
+
 class Unit:
     """An instance of an FMU for co-simulation, with names instead of value references; good for any number of runs.
 
     From `opened`. What the FMU refuses becomes a HitchError in its own words where `opened` ends.
     """
 
-    def __init__(self, name: str, description: Any, slave: Any) -> None:
+    def __init__(self, name: str, description: Any, slave: Any, messages: Sequence[str]) -> None:
         self.name = name
+        self._messages = messages
         self.guid = str(description.guid)
         self._slave = slave
         self._references = {variable.name: variable.valueReference for variable in description.modelVariables}
@@ -71,8 +76,11 @@ class Unit:
         return list(self._slave.getReal([self._references[name] for name in names]))
 
     def step(self, time: float, size: float) -> None:
-        """Go on from `time` by `size`, both in s."""
-        self._slave.doStep(time, size)
+        """Go on from `time` by `size`, both in s. StepRefused if the unit can't; it may be started again."""
+        try:
+            self._slave.doStep(time, size)
+        except FMICallException as error:
+            raise StepRefused(_refusal(self.name, self._messages, error)) from None
 
     @contextmanager
     def saved(self) -> Iterator[Callable[[], None]]:
@@ -107,8 +115,8 @@ class HitchUnit(Unit):
 def opened_unit(fmu: Path) -> Iterator[HitchUnit]:
     """CarTrailer.fmu, see `opened`. HitchError also for an FMU that has not its variables."""
     needed = [*VARIABLES, *Parameters.model_fields, "brake_torque"]
-    with _opened(fmu, needed, "a car and trailer") as (description, slave):
-        yield HitchUnit(fmu.name, description, slave)
+    with _opened(fmu, needed, "a car and trailer") as (description, slave, messages):
+        yield HitchUnit(fmu.name, description, slave, messages)
 
 
 @contextmanager
@@ -118,19 +126,19 @@ def opened(fmu: Path, needed: Sequence[str], what: str) -> Iterator[Unit]:
     `needed` are names that it must have to be `what` ("a trailer"). HitchError for a file that is none, for another
     kind of FMU, and for whatever the FMU refuses.
     """
-    with _opened(fmu, needed, what) as (description, slave):
-        yield Unit(fmu.name, description, slave)
+    with _opened(fmu, needed, what) as (description, slave, messages):
+        yield Unit(fmu.name, description, slave, messages)
 
 
 @contextmanager
-def _opened(fmu: Path, needed: Sequence[str], what: str) -> Iterator[tuple[Any, Any]]:
+def _opened(fmu: Path, needed: Sequence[str], what: str) -> Iterator[tuple[Any, Any, list[str]]]:
     with _unpacked(fmu) as (description, folder):
         names = {variable.name for variable in description.modelVariables}
         missing = [name for name in needed if name not in names]
         if missing:
             raise HitchError(f"{fmu} is not {what}: it has no variable {', '.join(missing)}")
-        with _instance(fmu, description, folder) as slave:
-            yield description, slave
+        with _instance(fmu, description, folder) as (slave, messages):
+            yield description, slave, messages
 
 
 @contextmanager
@@ -190,7 +198,7 @@ except (ImportError, OSError):
 
 
 @contextmanager
-def _instance(fmu: Path, description: Any, folder: str) -> Iterator[Any]:
+def _instance(fmu: Path, description: Any, folder: str) -> Iterator[tuple[Any, list[str]]]:
     """An instance of the FMU. What goes wrong in the FMU becomes a HitchError with the unit's last message."""
     messages: list[str] = []
     callbacks = fmi2CallbackFunctions.from_buffer_copy(_CALLBACKS)
@@ -202,9 +210,9 @@ def _instance(fmu: Path, description: Any, folder: str) -> Iterator[Any]:
             slave.instantiate(callbacks=callbacks)
         except Exception as error:  # fmpy raises bare Exception
             raise HitchError(f"{fmu} does not start: {_one_line(messages[-1] if messages else error)}") from None
-        yield slave
+        yield slave, messages
     except FMICallException as error:
-        raise HitchError(f"{fmu.name}: {_one_line(messages[-1] if messages else error)}") from None
+        raise HitchError(_refusal(fmu.name, messages, error)) from None
     finally:
         if slave.component is not None:
             slave.freeInstance()
@@ -221,6 +229,11 @@ def _loaded(fmu: Path, description: Any, folder: str) -> Any:
         raise HitchError(f"{fmu} does not load: {_one_line(error)}") from None
     finally:
         os.chdir(here)  # fmpy changes to the library's folder to load it, and stays there if that fails
+
+
+def _refusal(name: str, messages: Sequence[str], error: Exception) -> str:
+    """The unit's last message, or fmpy's where it has none."""
+    return f"{name}: {_one_line(messages[-1] if messages else error)}"
 
 
 def _one_line(message: object) -> str:

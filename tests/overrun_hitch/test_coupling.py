@@ -87,6 +87,14 @@ def test_a_coarse_step_makes_a_stable_combination_shunt(pair: Pair, whole: Hitch
     assert jacobi.growth_rate > 0.0 > hold.growth_rate
 
 
+def test_a_scheme_that_runs_away_does_not_stop_the_others(pair: Pair, whole: HitchUnit) -> None:
+    stiff = CASES["ii"].changed({"C": 0.0, "k": 20000.0, "r": 59500.0})
+    points = study_coupling(pair, whole, stiff, V, [0.1]).points
+    lost = {point.scheme.name for point in points if np.isnan(point.created)}
+    assert "jacobi" in lost
+    assert "iterated" not in lost and len(points) == len(SCHEMES)
+
+
 def run(pair: Pair, name: str, H: float, C: float = 500.0, duration: float = 6.0) -> Coupled:
     start, torque = gentle_braking(CASES["ii"].changed({"C": C}), V)
     return pair.run(BY_NAME[name], start, torque, duration, H, 1e-9)
