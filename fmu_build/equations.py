@@ -110,13 +110,14 @@ def _constants_and_roots(variables: Mapping[str, Variable], aliases: Names) -> d
 def _unique_relations(
     relations: tuple[Relation, ...], values: Mapping[sympy.Symbol, sympy.Expr]
 ) -> tuple[tuple[Relation, ...], dict[sympy.Symbol, sympy.Symbol]]:
-    """Relations with equal residuals are one, so that they switch together."""
+    """Relations with equal residuals are one, so that they switch together. A residual may contain earlier truths."""
     unique: dict[sympy.Expr, Relation] = {}
-    for relation in relations:
-        residual = relation.residual.xreplace(values)
+    positions: dict[sympy.Expr, int] = {}
+    truths: dict[sympy.Symbol, sympy.Symbol] = {}
+    for index, relation in enumerate(relations):
+        residual = relation.residual.xreplace({**values, **truths})
         unique.setdefault(residual, Relation(residual, relation.text, relation.origin))
-    positions = {residual: index for index, residual in enumerate(unique)}
-    truths = {holds(i): holds(positions[r.residual.xreplace(values)]) for i, r in enumerate(relations)}
+        truths[holds(index)] = holds(positions.setdefault(residual, len(positions)))
     return tuple(unique.values()), truths
 
 

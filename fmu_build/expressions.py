@@ -37,6 +37,7 @@ ARITHMETIC: Mapping[str, Callable[[sympy.Expr, sympy.Expr], sympy.Expr]] = {
     "Exp": lambda a, b: a**b,
 }
 RELATIONS = {"Lt": "<", "Le": "<=", "Gt": ">", "Ge": ">="}
+CHOICES = {"Abs": 1, "Min": 2, "Max": 2}  # conditionals in the guise of functions: number of arguments
 
 
 def unwrap(node: Any) -> str:
@@ -82,11 +83,16 @@ class Sources:
 
 
 class ExpressionReader:
-    """Reads expressions of one flat model and collects the relations that it meets."""
+    """Reads expressions of one flat model and collects the relations that it meets.
+
+    Within noEvent() a condition is no relation: it is evaluated as it stands, at any time. Elsewhere abs(), min() and
+    max() are conditionals with a relation, so that their kinks are located as well (the standard leaves that open).
+    """
 
     def __init__(self, sources: Sources) -> None:
         self.sources = sources
         self.relations: list[Relation] = []
+        self._event_free = False
 
     def read(self, node: Mapping[str, Any]) -> sympy.Expr:
         """A real expression; BuildError with its place where a construct is not supported."""
@@ -119,9 +125,31 @@ class ExpressionReader:
             if not operand.is_Symbol:
                 raise BuildError(f"{self.sources.find_place(body)}: der() of an expression: give it a variable instead")
             return symbol(der(operand.name))
+        if function == "NoEvent":
+            return self._without_events(arguments[0])
+        if function == "Smooth":  # how often it is differentiable is of no use here
+            return self.read(arguments[1])
+        if len(arguments) == CHOICES.get(function):
+            return self._choice(body)
         if function not in FUNCTIONS:
             raise self._unsupported({"BuiltinCall": body})
         return FUNCTIONS[function](*(self.read(argument) for argument in arguments))
+
+    def _without_events(self, node: Mapping[str, Any]) -> sympy.Expr:
+        outside, self._event_free = self._event_free, True
+        try:
+            return self.read(node)
+        finally:
+            self._event_free = outside
+
+    def _choice(self, body: Mapping[str, Any]) -> sympy.Expr:
+        """abs(a) is -a where -a > 0, min(a, b) is a where b - a > 0, max(a, b) is a where a - b > 0."""
+        *others, last = (self.read(argument) for argument in body["args"])
+        chosen = others[0] if others else -last
+        difference = chosen - last if others else chosen
+        text, origin = self.sources.text(body["span"]), self.sources.find_place(body)
+        is_chosen = self._holds(-difference if body["function"] == "Min" else difference, text, origin)
+        return sympy.Piecewise((chosen, is_chosen), (last, True), evaluate=False)
 
     def _conditional(self, body: Mapping[str, Any]) -> sympy.Expr:
         pairs = [(self.read(value), self._condition(condition)) for condition, value in body["branches"]]
@@ -143,9 +171,15 @@ class ExpressionReader:
         left, right = self.read(body["lhs"]), self.read(body["rhs"])
         residual = left - right if body["op"] in {"Gt", "Le"} else right - left
         text, origin = self.sources.text(body["span"]), self.sources.place(body["span"])
-        self.relations.append(Relation(residual, text, origin))
-        truth = holds(len(self.relations) - 1)
+        truth = self._holds(residual, text, origin)
         return sympy.Not(truth) if body["op"] in {"Le", "Ge"} else truth
+
+    def _holds(self, residual: sympy.Expr, text: str, origin: str) -> Boolean:
+        """Whether the residual is positive: what it was at the last event, or, within noEvent(), what it is."""
+        if self._event_free:
+            return residual > 0
+        self.relations.append(Relation(residual, text, origin))
+        return holds(len(self.relations) - 1)
 
     def _unsupported(self, node: Mapping[str, Any]) -> BuildError:
         tag, body = next(iter(node.items()))

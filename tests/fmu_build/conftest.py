@@ -68,9 +68,10 @@ class CompiledModel:
         self.at[self.references[name]] = value
 
     def relations(self) -> np.ndarray:
-        """Residuals of the relations at the present values."""
+        """Residuals of the relations at the present values; a relation may depend on the truth of others."""
         z = np.zeros(max(1, len(self.model.relations)))
-        self._call("model_relations", z > 0, z)
+        for _ in range(z.size + 1):
+            self._call("model_relations", z > 0, z)
         return z
 
     def outputs(self) -> None:

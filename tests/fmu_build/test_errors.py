@@ -29,7 +29,7 @@ BROKEN = {
     "array": ("model M\n  Real x[2];\nequation\n  x[1] = 1;\n  x[2] = 2;\nend M;", "M.mo:2", "array"),
     "boolean": ("model M\n  Boolean b = time > 1;\nend M;", "M.mo:2", "Boolean"),
     "nonlinear": ("model M\n  Real x;\nequation\n  x^3 + x = time;\nend M;", "M.mo:4", "linear"),
-    "function": ("model M\n  Real x = abs(time);\nend M;", "M.mo:2", "Abs"),
+    "function": ("model M\n  Real x = sign(time);\nend M;", "M.mo:2", "Sign"),
     "index": (
         "model M\n  Real x(start=0, fixed=true);\n  Real y(start=0, fixed=true);\n"
         "equation\n  der(x) + der(y) = 1;\n  x = 2*y;\nend M;",
