@@ -46,8 +46,11 @@ static void eliminate(double *restrict a, int k, double inverse_pivot)
         a[k * N_STATES + j] = row[j];
     }
     for (int i = 0; i < N_STATES; i++) {
-        const double factor = i == k ? 0.0 : a[i * N_STATES + k];
-        a[i * N_STATES + k] = i == k ? row[k] : 0.0;
+        const double factor = a[i * N_STATES + k];
+        if (i == k || factor == 0.0) { /* many are: few states act on many others */
+            continue;
+        }
+        a[i * N_STATES + k] = 0.0;
         for (int j = 0; j < N_STATES; j++) {
             a[i * N_STATES + j] -= factor * row[j];
         }
