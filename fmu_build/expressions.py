@@ -86,7 +86,7 @@ class ExpressionReader:
     """Reads expressions of one flat model and collects the relations that it meets.
 
     Within noEvent() a condition is no relation: it is evaluated as it stands, at any time. Elsewhere abs(), min() and
-    max() are conditionals with a relation, so that their kinks are located as well (the standard leaves that open).
+    max() are conditionals with a relation, so that their kinks are located as well.
     """
 
     def __init__(self, sources: Sources) -> None:
