@@ -8,6 +8,10 @@ package Units "Physical quantities with their units and admissible ranges"
   type Velocity = Real(final quantity="Velocity", final unit="m/s", nominal=1) "Velocity";
   type Acceleration = Real(final quantity="Acceleration", final unit="m/s2") "Acceleration";
   constant Acceleration g_n = 9.80665 "Standard acceleration of free fall";
+  type Angle = Real(final quantity="Angle", final unit="rad") "Angle";
+  type Time = Real(final quantity="Time", final unit="s") "Time";
+  type Slowness = Real(final quantity="Slowness", final unit="s/m") "Inverse of a velocity";
+  type Deflection = Real(final quantity="Length", final unit="m", nominal=0.01) "Deflection of a tyre";
   type AngularVelocity = Real(final quantity="AngularVelocity", final unit="rad/s", nominal=3) "Angular velocity";
   type Force = Real(final quantity="Force", final unit="N") "Force";
   type Torque = Real(final quantity="Torque", final unit="N.m") "Torque";
@@ -17,6 +21,7 @@ package Units "Physical quantities with their units and admissible ranges"
   type Damping = Real(final quantity="TranslationalDampingConstant", final unit="N.s/m", min=0) "Damper coefficient";
   type SlipStiffness = Real(final quantity="Force", final unit="N", min=1) "Tyre force per unit slip";
   type TorquePerLength = Real(final quantity="TorquePerLength", final unit="N.m/m", min=0) "Torque per unit length";
+  type Friction = Real(final quantity="CoefficientOfFriction", final unit="1", min=0.01) "Coefficient of friction";
   type Grade = Real(final quantity="Grade", final unit="1") "Rise of the road over its horizontal run";
   type Slip = Real(final quantity="Slip", final unit="1") "Longitudinal slip";
   annotation(

@@ -24,6 +24,8 @@ def equations_of_motion(parameters: Parameters, V: float, s: float = 0.0) -> tup
     The paper's homogeneous equations at the end of section 5. V: speed in m/s; s: weak spring from the car to ground
     in N/m, which keeps the rigid-body mode off zero.
     """
+    if not V > 0.0:
+        raise HitchError(f"V_0 = {V:g} m/s is not allowed: linear theory needs a speed greater than 0 m/s")
     p = parameters
     g_c, g_t = p.C_kc / V, p.C_kt / V
     mass = np.diag([p.M_c, p.M_t, p.I_c, p.I_t])

@@ -1,6 +1,7 @@
 """The FMU's own linearisation, from its directional derivatives, beside the paper's dynamic matrix (section 5).
 
-The FMU's states are x_c, v_c, omega_c, v_t, omega_t and the compression delta = x_t - x_c; the paper's are x_c, x_t,
+The FMU's states are x_c, v_c, omega_c, v_t, omega_t and the compression delta = x_t - x_c, beside those of tyres and
+brakes that hold at standstill, on which nothing else depends at speed and which are left out; the paper's are x_c, x_t,
 the wheel angles and their rates. Wheel angles act on nothing, so the FMU has none, and here the paper's matrix is taken
 without their rows and columns (linear.reduced_matrix). What is left differs by the exact change of coordinates
 x_t = x_c + delta.

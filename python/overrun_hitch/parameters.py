@@ -99,7 +99,8 @@ class Parameters(Quantities):
     r: float = quantity(2.975 * 5480.0, "N.m/m", "trailer brake torque per unit of drawbar compression", ge=0.0)
     eps: float = quantity(0.0, "m", "drawbar clearance", ge=0.0)
     F_pull_max: float = quantity(1e9, "N", "largest pull of the damper in a drawbar that is pushed in", ge=0.0)
-    V_0: float = quantity(40.0, "m/s", "speed at the start", ge=0.1)
+    mu: float = quantity(1e9, "1", "friction between tyres and road", ge=0.01)
+    V_0: float = quantity(40.0, "m/s", "speed at the start")
     compression_start: float = quantity(0.0, "m", "drawbar compression at the start")
 
     def changed(self, changes: Mapping[str, Any]) -> Parameters:

@@ -16,7 +16,7 @@ from overrun_hitch.results import VARIABLES, dataset, scenario_attributes
 from overrun_hitch.unit import HitchUnit, opened_unit
 
 MOST_STEPS = 1_000_000  # a table of 10 columns of that length takes 80 MB
-STANDSTILL = 0.1  # m/s, the FMU's lowest start speed: slip, a difference over the speed, means nothing at rest
+STANDSTILL = 0.1  # m/s: the paper's slip, a difference over the speed, means nothing at rest
 
 
 class Settings(Quantities):
@@ -31,7 +31,7 @@ def step_brake(
 ) -> xr.Dataset:
     """`brake` on an FMU file that is opened for this one run. HitchError also for a file that is no such FMU."""
     settings = Settings(relative_tolerance=relative_tolerance, communication_step=communication_step)
-    _communication_points(scenario.duration, settings.communication_step)  # what is wrong with it comes first
+    _communication_points(scenario, settings.communication_step)  # what is wrong with it comes first
     with opened_unit(fmu) as unit:
         return brake(unit, scenario, settings)
 
@@ -40,9 +40,10 @@ def brake(unit: HitchUnit, scenario: Scenario, settings: Settings) -> xr.Dataset
     """Run `scenario` on the unit and sample it at the communication points, t = 0 included (see results.dataset).
 
     The run ends early, with attribute `ended` = "standstill", before car or trailer comes to rest, where the paper's
-    model ends. HitchError for too many steps; what the unit refuses ends `opened_unit` with a HitchError.
+    model ends. HitchError for too many steps or a start at rest; what the unit refuses ends `opened_unit` with a
+    HitchError.
     """
-    points = _communication_points(scenario.duration, settings.communication_step)
+    points = _communication_points(scenario, settings.communication_step)
     unit.start(scenario.parameters, {"brake_torque": scenario.brake_torque}, settings.relative_tolerance)
     rows = [unit.outputs()]
     for now, then in pairwise(points.tolist()):
@@ -67,8 +68,11 @@ def car_alone(scenario: Scenario) -> Scenario:
     return scenario.changed(name=f"{scenario.name}, car alone", parameters=loose)
 
 
-def _communication_points(duration: float, h: float) -> np.ndarray[Any, np.dtype[np.float64]]:
+def _communication_points(scenario: Scenario, h: float) -> np.ndarray[Any, np.dtype[np.float64]]:
     """0, h, 2 h, ... and the end of the run, which a last shorter step may have to reach."""
+    V_0, duration = scenario.parameters.V_0, scenario.duration
+    if V_0 < STANDSTILL:
+        raise HitchError(f"V_0 = {V_0:g} m/s is not allowed: a step brake starts at {STANDSTILL} m/s at least")
     if duration / h > MOST_STEPS:
         raise HitchError(f"communication_step = {h:g} s is not allowed: {MOST_STEPS} steps at most in {duration:g} s")
     steps = math.ceil(duration / h * (1.0 - 1e-12))

@@ -15,7 +15,7 @@ from fmpy.validation import validate_fmu
 from fmu_build import pipeline
 from fmu_build.pipeline import build
 
-PARAMETERS = "M_c M_t I_c I_t R_c R_t C_kc C_kt k k_t C r eps F_pull_max V_0 compression_start".split()
+PARAMETERS = "M_c M_t I_c I_t R_c R_t C_kc C_kt k k_t C r eps F_pull_max mu V_0 compression_start".split()
 OUTPUTS = "v_car v_trailer a_car a_trailer compression F_hitch slip_car slip_trailer trailer_brake_torque".split()
 
 
@@ -53,7 +53,7 @@ def test_dependencies_are_those_of_the_equations(car_trailer_fmu: Path) -> None:
     description = fmpy.read_model_description(str(car_trailer_fmu))
     depends = {u.variable.name: {v.name for v in u.dependencies} for u in description.outputs}
     assert depends["v_car"] == {"car.body.v"}
-    assert depends["slip_trailer"] == {"trailer.body.v", "trailer.wheel.omega"}
+    assert depends["slip_trailer"] == {"trailer.body.v", "trailer.wheel.omega", "trailer.tyre.u"}
     assert depends["compression"] == {"drawbar.compression"}
     assert all("brake_torque" not in names for names in depends.values())  # no direct feedthrough
     assert {name for name, names in depends.items() if "grade" in names} == {"a_car", "a_trailer"}

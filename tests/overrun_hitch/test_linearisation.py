@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from overrun_hitch.linear import reduced_matrix
-from overrun_hitch.linearisation import STATES, Linearisation, at_steady_braking, at_zero_slip
+from overrun_hitch.linearisation import FMU_STATES, STATES, Linearisation, at_steady_braking, at_zero_slip
 from overrun_hitch.parameters import CASES, FIGURES
 from overrun_hitch.unit import opened_unit
 
@@ -66,3 +66,17 @@ def test_eigenvalues_beside_each_other(car_trailer_fmu: Path) -> None:
     assert moving.sum() == 4
     np.testing.assert_allclose(fmu[moving], theory[moving], rtol=1e-9)
     assert np.abs(fmu[~moving]).max() < 1e-5
+
+
+def test_at_speed_nothing_depends_on_the_states_that_count_at_standstill(car_trailer_fmu: Path) -> None:
+    """What brakes and tyres need to hold: at speed the six states of the paper do not see it."""
+    with opened_unit(car_trailer_fmu) as unit:
+        at_steady_braking(unit, FIGURES["8"].parameters, 20.0, 1000.0)
+        names, jacobian = unit.jacobian()
+    papers = [names.index(name) for name in FMU_STATES.values()]
+    tyres = [names.index(f"{vehicle}.tyre.u") for vehicle in ("car", "trailer")]
+    brakes = [names.index(f"{vehicle}.wheel.z") for vehicle in ("car", "trailer")]
+    assert sorted(papers + tyres + brakes) == list(range(len(names)))
+    assert not jacobian[np.ix_(papers, tyres)].any()
+    assert not jacobian[np.ix_(brakes, papers + tyres)].any()  # so they stay what they are at the start
+    assert (np.diag(jacobian)[tyres + brakes] < 0.0).all()

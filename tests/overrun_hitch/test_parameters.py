@@ -62,8 +62,8 @@ def test_a_wrong_value_costs_one_line_that_names_it(name: str, value: float) -> 
 
 @pytest.mark.parametrize(
     ("name", "value"),
-    [("M_c", 0.0), ("I_t", -1.0), ("R_c", 0.0), ("V_0", 0.0), ("eps", -0.1), ("k", -1.0), ("C", -1.0), ("k", math.nan),
-     ("compression_start", math.inf), ("M_c", "heavy"), ("M_c", None)],
+    [("M_c", 0.0), ("I_t", -1.0), ("R_c", 0.0), ("mu", 0.0), ("eps", -0.1), ("k", -1.0), ("C", -1.0), ("k", math.nan),
+     ("V_0", math.nan), ("compression_start", math.inf), ("M_c", "heavy"), ("M_c", None)],
 )  # fmt: skip
 def test_values_that_the_fmu_refuses_are_refused(name: str, value: object) -> None:
     with pytest.raises(HitchError, match=f"^{name} = .* is not allowed: .* must be a finite number"):

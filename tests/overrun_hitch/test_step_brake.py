@@ -16,7 +16,7 @@ from fmpy.fmi1 import FMICallException
 from overrun_hitch import cli
 from overrun_hitch.compare import compare
 from overrun_hitch.parameters import CASES, FIGURES, HitchError, Scenario
-from overrun_hitch.results import read_csv, scenario_of
+from overrun_hitch.results import VARIABLES, read_csv, scenario_of
 from overrun_hitch.run import car_alone, step_brake
 from overrun_hitch.steady import steady
 from tests.oracles import radau
@@ -50,6 +50,16 @@ def test_it_follows_the_oracle(
     assert error("slip_trailer") < speed
     assert error("a_car") < (force + p.C_kc * speed) / p.M_c
     assert error("a_trailer") < (force + p.C_kt * speed) / p.M_t
+
+
+@pytest.mark.parametrize("figure", FIGURES)
+def test_what_it_takes_to_stand_still_does_not_touch_the_paper(car_trailer_fmu: Path, figure: str) -> None:
+    """The oracle knows the paper's equations alone: no friction limit, no brake that holds, no tyre that stands."""
+    oracle = radau.trajectory(FIGURES[figure].parameters)
+    run = step_brake(FIGURES[figure], fmu=car_trailer_fmu, relative_tolerance=1e-11)
+    for name in VARIABLES:
+        exact = getattr(oracle, name)
+        np.testing.assert_allclose(run[name].values, exact[::10], rtol=0.0, atol=1e-9 * np.abs(exact).max())
 
 
 @pytest.mark.parametrize(("case", "C"), [("ii", 200.0), ("ii", 500.0), ("i", 200.0), ("iii", 200.0)])

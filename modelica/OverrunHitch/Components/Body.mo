@@ -5,7 +5,7 @@ model Body "Rigid body that moves along the road"
   Interfaces.Flange axle "Where the axle is attached" annotation(Placement(transformation(extent={{-10,-110},{10,-90}})));
   Interfaces.AccelerationInput g_x "Gravity along the road, positive forward" annotation(Placement(transformation(extent={{-120,40},{-80,80}})));
   Units.Position x(start=0, fixed=true) "Position, positive forward";
-  Units.Velocity v(start=40, fixed=true, min=0.1) "Speed, positive forward";
+  Units.Velocity v(start=40, fixed=true) "Speed, positive forward";
   Units.Acceleration a "Acceleration, positive forward";
 equation
   v = der(x);
@@ -21,6 +21,5 @@ equation
     Documentation(info="<html>
 <p>Newton's second law along the road (the paper's equations 1 and 2, whose road is level). Both flanges sit at the body's position; the
 distance between hitch and axle is rigid and plays no part.</p>
-<p>Forward driving only: the speed's minimum is 0.1 m/s, because the tyre law divides by the speed.</p>
 </html>"));
 end Body;

@@ -3,7 +3,7 @@ model BrakeLinkage "Linkage that applies the trailer's brakes as the drawbar is 
   parameter Units.TorquePerLength r = 2.975*5480 "Brake torque per unit of drawbar compression beyond the clearance";
   parameter Units.Length eps(min=0) = 0 "Clearance (backlash)";
   Interfaces.LengthInput compression "Drawbar compression" annotation(Placement(transformation(extent={{-120,-20},{-80,20}})));
-  Interfaces.TorqueOutput brake_torque "Torque on the trailer's lumped wheels" annotation(Placement(transformation(extent={{90,-10},{110,10}})));
+  Interfaces.TorqueOutput brake_torque "Torque that the trailer's brakes can hold, on its lumped wheels" annotation(Placement(transformation(extent={{90,-10},{110,10}})));
 equation
   brake_torque = if compression > eps then r*(compression - eps) else 0 "Paper's equation 6, with the clearance of section 6";
   annotation(
@@ -13,6 +13,6 @@ equation
       Text(extent={{-100,100},{100,65}}, textColor={0,0,255}, textString="%name")}),
     Documentation(info="<html>
 <p>Torque proportional to the compression beyond the clearance (the paper's equation 6); none within the clearance and
-none in tension. It acts without delay.</p>
+none in tension. It acts without delay, and in reverse too: there is no reversing lock-out.</p>
 </html>"));
 end BrakeLinkage;

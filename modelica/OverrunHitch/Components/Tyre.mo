@@ -1,16 +1,45 @@
 within OverrunHitch.Components;
-model Tyre "Tyre whose force is proportional to longitudinal slip"
-  parameter Units.SlipStiffness C_k = 400000 "Retarding force per unit slip";
+model Tyre "Tyre whose force follows from longitudinal slip, limited by friction; it holds at standstill"
+  parameter Units.SlipStiffness C_k = 400000 "Retarding force per unit of small slip";
   parameter Units.Radius R = 0.35 "Rolling radius";
+  parameter Units.Mass M = 1000 "Mass that loads the tyre";
+  parameter Units.Friction mu = 1e9 "Friction between tyre and road: largest force over load";
+  parameter Units.Length sigma = 0.3 "Relaxation length: C_k over the stiffness of the tyre at rest";
+  parameter Units.Velocity v_low = 0.5 "Below this speed the tyre's deflection counts instead of its slip";
+  parameter Real zeta(final unit="1") = 0.5 "Damping ratio of the mass on the tyre that stands";
+  constant Real C_x(final unit="1") = 1.685 "Shape factor of the magic formula: p_Cx1 of Pacejka's 205/60R15";
+  constant Real E_x(final unit="1") = 0.344 "Curvature factor of the magic formula: p_Ex1 of Pacejka's 205/60R15";
+  constant Real X_peak(final unit="1") = 1.5329258834444335 "Argument at the peak: C_x*atan(X - E_x*(X - atan(X))) = pi/2";
   Interfaces.Flange axle "Joined to the body" annotation(Placement(transformation(extent={{-10,90},{10,110}})));
   Interfaces.Hub hub "Joined to the wheel" annotation(Placement(transformation(extent={{-10,-10},{10,10}})));
+  Interfaces.AccelerationInput g_z "Gravity onto the road" annotation(Placement(transformation(extent={{-120,-20},{-80,20}})));
   Units.Velocity v "Speed of the axle, positive forward";
+  Units.Velocity v_abs "Its magnitude";
+  Units.Velocity v_slip "Slip speed, positive when braking a tyre that rolls forward";
+  Real y(final unit="1") "Speed as a share of v_low, 1 at most";
+  Real w(final unit="1") "Weight of the deflection: 0 from v_low on, 1 at rest";
+  Units.Slowness p "Slip that counts per slip speed: 1/v_abs from v_low on, 0 at rest";
+  Units.Velocity v_fade "What lets the deflection fade: rolling and sliding";
+  Units.Deflection u(start=0, fixed=true) "Deflection of the tyre, positive when braking a tyre that rolls forward";
   Units.Slip slip "Longitudinal slip, positive when braking";
+  Units.Force F_max "Largest force";
+  Real X(final unit="1") "Argument of the magic formula";
   Units.Force F "Tyre force, positive retarding";
+protected
+  parameter Units.Slowness d = 2*zeta*sqrt(M/(C_k*sigma)) "Slip per slip speed that gives the damping zeta";
 equation
   v = der(axle.s);
-  slip = (v - R*hub.omega)/v;
-  F = C_k*slip "Paper's equations 7 and 8";
+  v_abs = noEvent(abs(v));
+  v_slip = v - R*hub.omega;
+  y = noEvent(if v_abs < v_low then v_abs/v_low else 1);
+  w = 1 - y^3*(4 - 3*y);
+  p = noEvent(if v_abs < v_low then y^2*(4 - 3*y)/v_low else 1/v_abs) "(1 - w)/v_abs";
+  slip = p*v_slip + w*(u/sigma + d*v_slip) "Paper's equations 7 and 8, from v_low on";
+  F_max = mu*M*g_z;
+  v_fade = noEvent(if v_abs < v_low then v_abs*y*(2 - y) else v_abs) + noEvent(abs(v_slip))*C_k/(X_peak*C_x*F_max);
+  der(u) = v_slip - v_fade*u/sigma;
+  X = C_k*slip/(C_x*F_max);
+  F = F_max*sin(C_x*atan(X - E_x*(X - atan(X)))) "C_k*slip, where it is small against F_max";
   axle.f = F;
   hub.tau = -R*F;
   annotation(
@@ -21,9 +50,19 @@ equation
       Text(extent={{-100,140},{100,105}}, textColor={0,0,255}, textString="%name"),
       Text(extent={{-48,15},{48,-15}}, textColor={60,60,60}, textString="C_k=%C_k")}),
     Documentation(info="<html>
-<p>Force proportional to the longitudinal slip <code>(v - R omega)/v</code> (the paper's equations 7 and 8): good for
-slips up to about 0.1. The law divides by the speed, so it holds for forward driving only; the lag between slip and force
-is left out.</p>
+<p>From <code>v_low</code> on, in both directions, the force depends on the longitudinal slip
+<code>(v - R omega)/|v|</code>. While it is small against the friction limit it is proportional to the slip (the paper's
+equations 7 and 8, good for slips up to about 0.1). Friction limits it to <code>mu</code> times the load; beyond that peak it
+falls as H. B. Pacejka's magic formula tells, whose slope at zero slip is <code>C_k</code>. With the default
+<code>mu</code> the limit is out of reach and the force that of the paper.</p>
+<p>At rest there is no slip to speak of: a tyre that stands is a spring of the stiffness <code>C_k/sigma</code>, which holds a
+vehicle on a slope without creeping. Its deflection <code>u</code> is that of a tyre with the relaxation length
+<code>sigma</code>; it fades over that distance when the tyre rolls, not when it stands, and sliding limits it to where the
+force has its peak. From <code>v_low</code> down it takes over; above, it takes no part. The damping of the tyre that stands
+is artificial, as in Pacejka's own model for low speeds, and disappears at <code>v_low</code> too.</p>
+<p>Rejected: a slip over a speed that is kept from zero. It is regular as well, but it creeps on a slope.</p>
 <p>The tyre pulls the body back with <code>F</code> and spins the wheel forward with <code>R F</code>.</p>
+<p>Sources: H. B. Pacejka, <em>Tyre and Vehicle Dynamics</em>, 2nd ed. 2006: magic formula section 4.3, standstill section
+8.6, <code>C_x</code> and <code>E_x</code> table A3.1 (205/60R15 at 4 kN, its <code>mu</code> 1.21).</p>
 </html>"));
 end Tyre;

@@ -4,22 +4,24 @@ model Car "Car in front of somebody else's trailer (Sharp 1982)"
   parameter Units.MomentOfInertia I_c = 5 "Inertia of the car's lumped wheels";
   parameter Units.Radius R_c = 0.35 "Wheel radius of the car";
   parameter Units.SlipStiffness C_kc = 400000 "Tyre force per unit slip, car";
-  parameter Units.Velocity V_0(min=0.1) = 40 "Speed at the start";
-  Interfaces.TorqueInput brake_torque(min=0) "Brake torque on the car's lumped wheels" annotation(Placement(transformation(extent={{-20,80},{20,120}}, rotation=-90)));
+  parameter Units.Friction mu = 1e9 "Friction between tyres and road; the paper's has no limit";
+  parameter Units.Velocity V_0 = 40 "Speed at the start";
+  Interfaces.TorqueInput brake_torque(min=0) "Torque that the car's brakes can hold, on its lumped wheels: friction, against the rolling" annotation(Placement(transformation(extent={{-20,80},{20,120}}, rotation=-90)));
   Interfaces.ForceInput F_hitch "Hitch force on the car, positive forward: a pushing trailer gives a positive value" annotation(Placement(transformation(extent={{-140,-20},{-100,20}})));
   Interfaces.GradeInput grade "Road grade, rise over horizontal run, positive uphill" annotation(Placement(transformation(extent={{-140,60},{-100,100}})));
   output Units.Velocity v_car = car.body.v "Speed of the car, positive forward";
   output Units.Acceleration a_car = car.body.a "Acceleration of the car, positive forward";
   output Units.Slip slip_car = car.tyre.slip "Longitudinal slip of the car's wheels, positive when braking";
   Components.HitchForce force "Hitch force" annotation(Placement(transformation(extent={{-60,-20},{-20,20}})));
-  Components.BrakedVehicle car(M=M_c, I=I_c, R=R_c, C_k=C_kc, V_0=V_0, final x_0=0) "Car" annotation(Placement(transformation(extent={{20,-20},{60,20}})));
+  Components.BrakedVehicle car(M=M_c, I=I_c, R=R_c, C_k=C_kc, V_0=V_0, mu=mu, final x_0=0) "Car" annotation(Placement(transformation(extent={{20,-20},{60,20}})));
   Components.Road road "Road" annotation(Placement(transformation(extent={{-80,70},{-60,90}})));
 equation
   connect(F_hitch, force.F) annotation(Line(points={{-120,0},{-60,0}}, color={0,0,127}));
   connect(force.car, car.hitch) annotation(Line(points={{-20,0},{20,0}}, color={0,127,0}));
   connect(brake_torque, car.brake_torque) annotation(Line(points={{0,100},{0,40},{40,40},{40,20}}, color={0,0,127}));
   connect(grade, road.grade) annotation(Line(points={{-120,80},{-80,80}}, color={0,0,127}));
-  connect(road.g_x, car.g_x) annotation(Line(points={{-60,80},{-10,80},{-10,12},{20,12}}, color={0,0,127}));
+  connect(road.g_x, car.g_x) annotation(Line(points={{-60,84},{-10,84},{-10,12},{20,12}}, color={0,0,127}));
+  connect(road.g_z, car.g_z) annotation(Line(points={{-60,76},{-14,76},{-14,-12},{20,-12}}, color={0,0,127}));
   annotation(
     __fmu_build(terminal(name="hitch", signal(v="v_car"), inflow(F="F_hitch"))),
     experiment(StartTime=0, StopTime=6, Tolerance=1e-6, Interval=0.01),
@@ -32,10 +34,11 @@ equation
 <code>Trailer</code>, so that a pair can be tried at once.</p>
 <h2>Signs</h2>
 <p>Speed, acceleration and hitch force are positive forward, the slip and the brake torque when they brake a car that
-rolls forward, <code>grade</code> uphill.</p>
+rolls forward, <code>grade</code> uphill. <code>brake_torque</code> is what the brakes can hold: it acts against the rolling in
+both directions, and holds a wheel that has stopped.</p>
 <h2>Limits</h2>
-<p>Forward driving above 0.1 m/s (the tyre law divides by the speed), slip up to about 0.1, no drag, brakes that are
-torques and not friction.</p>
+<p>No drag and no rolling resistance. From 0.5 m/s on the tyre force follows the slip without lag. With
+the default <code>mu</code> nothing limits it: hard braking and slips beyond about 0.1 need a true one.</p>
 <h2>Source</h2>
 <p>R. S. Sharp, <em>Longitudinal Oscillations of Vehicle/Trailer Combinations Induced by Overrun Braking</em>, Vehicle
 System Dynamics 11:1 (1982) 43-61, <a href=\"https://doi.org/10.1080/00423118208968687\">doi

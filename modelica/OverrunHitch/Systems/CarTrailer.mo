@@ -14,9 +14,10 @@ model CarTrailer "Car and trailer with an overrun brake (Sharp 1982)"
   parameter Units.TorquePerLength r = 16303 "Trailer brake torque per unit of drawbar compression (2.975 m times k)";
   parameter Units.Length eps(min=0) = 0 "Drawbar clearance (backlash)";
   parameter Units.Force F_pull_max(min=0) = 1e9 "Largest pull of the damper in a drawbar that is pushed in: 0 for none; the paper's damper has no limit";
-  parameter Units.Velocity V_0(min=0.1) = 40 "Speed of both vehicles at the start";
+  parameter Units.Friction mu = 1e9 "Friction between tyres and road; the paper's has no limit";
+  parameter Units.Velocity V_0 = 40 "Speed of both vehicles at the start";
   parameter Units.Length compression_start = 0 "Drawbar compression at the start";
-  Interfaces.TorqueInput brake_torque(min=0) "Brake torque on the car's lumped wheels" annotation(Placement(transformation(extent={{20,80},{60,120}}, rotation=-90)));
+  Interfaces.TorqueInput brake_torque(min=0) "Torque that the car's brakes can hold, on its lumped wheels: friction, against the rolling" annotation(Placement(transformation(extent={{20,80},{60,120}}, rotation=-90)));
   Interfaces.GradeInput grade "Road grade, rise over horizontal run, positive uphill" annotation(Placement(transformation(extent={{-140,60},{-100,100}})));
   output Units.Velocity v_car = car.body.v "Speed of the car, positive forward";
   output Units.Velocity v_trailer = trailer.body.v "Speed of the trailer, positive forward";
@@ -26,16 +27,18 @@ model CarTrailer "Car and trailer with an overrun brake (Sharp 1982)"
   output Units.Force F_hitch = car.hitch.f "Hitch force on the car, positive forward: a pushing trailer gives a positive value";
   output Units.Slip slip_car = car.tyre.slip "Longitudinal slip of the car's wheels, positive when braking";
   output Units.Slip slip_trailer = trailer.tyre.slip "Longitudinal slip of the trailer's wheels, positive when braking";
-  output Units.Torque trailer_brake_torque = linkage.brake_torque "Brake torque on the trailer's lumped wheels";
-  Components.BrakedVehicle car(M=M_c, I=I_c, R=R_c, C_k=C_kc, V_0=V_0, final x_0=0) "Car" annotation(Placement(transformation(extent={{40,-20},{80,20}})));
-  Components.BrakedVehicle trailer(M=M_t, I=I_t, R=R_t, C_k=C_kt, V_0=V_0, x_0=compression_start) "Trailer" annotation(Placement(transformation(extent={{-80,-20},{-40,20}})));
+  output Units.Torque trailer_brake_torque = linkage.brake_torque "Torque that the trailer's brakes can hold, on its lumped wheels";
+  Components.BrakedVehicle car(M=M_c, I=I_c, R=R_c, C_k=C_kc, V_0=V_0, mu=mu, final x_0=0) "Car" annotation(Placement(transformation(extent={{40,-20},{80,20}})));
+  Components.BrakedVehicle trailer(M=M_t, I=I_t, R=R_t, C_k=C_kt, V_0=V_0, mu=mu, x_0=compression_start) "Trailer" annotation(Placement(transformation(extent={{-80,-20},{-40,20}})));
   Components.Drawbar drawbar(k=k, k_t=k_t, C=C, eps=eps, F_pull_max=F_pull_max) "Drawbar" annotation(Placement(transformation(extent={{-20,-20},{20,20}})));
   Components.Road road "Road" annotation(Placement(transformation(extent={{-80,70},{-60,90}})));
   Components.BrakeLinkage linkage(r=r, eps=eps) "Linkage from drawbar to trailer brakes" annotation(Placement(transformation(extent={{-20,-70},{-60,-50}})));
 equation
   connect(grade, road.grade) annotation(Line(points={{-120,80},{-80,80}}, color={0,0,127}));
-  connect(road.g_x, trailer.g_x) annotation(Line(points={{-60,80},{-50,80},{-50,60},{-84,60},{-84,12},{-80,12}}, color={0,0,127}));
-  connect(road.g_x, car.g_x) annotation(Line(points={{-60,80},{34,80},{34,12},{40,12}}, color={0,0,127}));
+  connect(road.g_x, trailer.g_x) annotation(Line(points={{-60,84},{-50,84},{-50,60},{-84,60},{-84,12},{-80,12}}, color={0,0,127}));
+  connect(road.g_x, car.g_x) annotation(Line(points={{-60,84},{34,84},{34,12},{40,12}}, color={0,0,127}));
+  connect(road.g_z, trailer.g_z) annotation(Line(points={{-60,76},{-54,76},{-54,56},{-88,56},{-88,-12},{-80,-12}}, color={0,0,127}));
+  connect(road.g_z, car.g_z) annotation(Line(points={{-60,76},{30,76},{30,-12},{40,-12}}, color={0,0,127}));
   connect(drawbar.front, car.hitch) annotation(Line(points={{20,0},{40,0}}, color={0,127,0}));
   connect(drawbar.rear, trailer.hitch) annotation(Line(points={{-20,0},{-30,0},{-30,30},{-90,30},{-90,0},{-80,0}}, color={0,127,0}));
   connect(drawbar.compression, linkage.compression) annotation(Line(points={{0,-20},{0,-60},{-20,-60}}, color={0,0,127}));
@@ -59,16 +62,19 @@ equation
 <code>compression</code> is <code>x_t - x_c</code>, positive when the drawbar is pushed in. <code>F_hitch</code> is the
 force on the car, positive forward: a pushing trailer gives a positive value; it is minus the paper's F_h, which is
 positive in tension. <code>grade</code> is positive uphill. Slips and brake torques are positive when they brake a
-vehicle that rolls forward.</p>
+vehicle that rolls forward. <code>brake_torque</code> and <code>trailer_brake_torque</code> are what brakes can hold: they
+act against the rolling in both directions, and hold a wheel that has stopped. The paper's road is level,
+<code>grade = 0</code>.</p>
 <h2>Parameters</h2>
 <p>Masses, inertias, radii and tyre stiffnesses are the datum of the paper's section 7; <code>k</code> and <code>r</code>
 those of its case ii (section 8.1); <code>k_t = 100 k</code> that of figures 6a and 7 to 11. <code>V_0</code> and
-<code>compression_start</code> count at the start, the others may be changed during a run. With
+<code>compression_start</code> count at the start, the others may be changed during a run.
+<code>mu</code> is about 1 on dry asphalt, 0.3 on packed snow; its default is beyond any tyre. With
 <code>F_pull_max = 0</code> the damper never makes a compressed drawbar pull, nor one at its stop push; the default is
 beyond any damper's force.</p>
 <h2>Limits</h2>
-<p>Forward driving above 0.1 m/s (the tyre law divides by the speed), slip up to about 0.1, no drag, brakes that are
-torques and not friction. The paper's road is level: <code>grade = 0</code>.</p>
+<p>No drag, no rolling resistance, no reversing lock-out. From 0.5 m/s on the tyre force follows the slip without lag. With
+the default <code>mu</code> nothing limits it: hard braking and slips beyond about 0.1 need a true one.</p>
 <h2>Source</h2>
 <p>R. S. Sharp, <em>Longitudinal Oscillations of Vehicle/Trailer Combinations Induced by Overrun Braking</em>, Vehicle
 System Dynamics 11:1 (1982) 43-61, <a href=\"https://doi.org/10.1080/00423118208968687\">doi

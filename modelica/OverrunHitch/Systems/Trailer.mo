@@ -10,7 +10,8 @@ model Trailer "Trailer with an overrun brake behind somebody else's car (Sharp 1
   parameter Units.TorquePerLength r = 16303 "Trailer brake torque per unit of drawbar compression (2.975 m times k)";
   parameter Units.Length eps(min=0) = 0 "Drawbar clearance (backlash)";
   parameter Units.Force F_pull_max(min=0) = 1e9 "Largest pull of the damper in a drawbar that is pushed in: 0 for none; the paper's damper has no limit";
-  parameter Units.Velocity V_0(min=0.1) = 40 "Speed of the trailer at the start; v_car is expected to be the same";
+  parameter Units.Friction mu = 1e9 "Friction between tyres and road; the paper's has no limit";
+  parameter Units.Velocity V_0 = 40 "Speed of the trailer at the start; v_car is expected to be the same";
   parameter Units.Length compression_start = 0 "Drawbar compression at the start";
   parameter Real extrapolation(final unit="1", min=0, max=1) = 1 "1: inside a step v_car goes on as it changed over the last one, 0: it is held (Co-Simulation)";
   parameter Real applied_force(final unit="1", min=1, max=3) = 3 "What the other side applies, for the account of impulse and energy: 1 F_hitch, 2 F_hitch_mean, 3 F_hitch_hold (Co-Simulation)";
@@ -26,16 +27,17 @@ model Trailer "Trailer with an overrun brake behind somebody else's car (Sharp 1
   output Units.Velocity v_trailer = trailer.body.v "Speed of the trailer, positive forward";
   output Units.Acceleration a_trailer = trailer.body.a "Acceleration of the trailer, positive forward";
   output Units.Slip slip_trailer = trailer.tyre.slip "Longitudinal slip of the trailer's wheels, positive when braking";
-  output Units.Torque trailer_brake_torque = linkage.brake_torque "Brake torque on the trailer's lumped wheels";
+  output Units.Torque trailer_brake_torque = linkage.brake_torque "Torque that the trailer's brakes can hold, on its lumped wheels";
   Components.TowBall ball "Tow ball" annotation(Placement(transformation(extent={{40,-20},{80,20}})));
-  Components.BrakedVehicle trailer(M=M_t, I=I_t, R=R_t, C_k=C_kt, V_0=V_0, x_0=compression_start) "Trailer" annotation(Placement(transformation(extent={{-80,-20},{-40,20}})));
+  Components.BrakedVehicle trailer(M=M_t, I=I_t, R=R_t, C_k=C_kt, V_0=V_0, mu=mu, x_0=compression_start) "Trailer" annotation(Placement(transformation(extent={{-80,-20},{-40,20}})));
   Components.Drawbar drawbar(k=k, k_t=k_t, C=C, eps=eps, F_pull_max=F_pull_max) "Drawbar" annotation(Placement(transformation(extent={{-20,-20},{20,20}})));
   Components.Road road "Road" annotation(Placement(transformation(extent={{-80,70},{-60,90}})));
   Components.BrakeLinkage linkage(r=r, eps=eps) "Linkage from drawbar to trailer brakes" annotation(Placement(transformation(extent={{-20,-70},{-60,-50}})));
 equation
   connect(v_car, ball.v) annotation(Line(points={{120,0},{80,0}}, color={0,0,127}));
   connect(grade, road.grade) annotation(Line(points={{-120,80},{-80,80}}, color={0,0,127}));
-  connect(road.g_x, trailer.g_x) annotation(Line(points={{-60,80},{-50,80},{-50,60},{-84,60},{-84,12},{-80,12}}, color={0,0,127}));
+  connect(road.g_x, trailer.g_x) annotation(Line(points={{-60,84},{-50,84},{-50,60},{-84,60},{-84,12},{-80,12}}, color={0,0,127}));
+  connect(road.g_z, trailer.g_z) annotation(Line(points={{-60,76},{-54,76},{-54,56},{-88,56},{-88,-12},{-80,-12}}, color={0,0,127}));
   connect(drawbar.front, ball.drawbar) annotation(Line(points={{20,0},{40,0}}, color={0,127,0}));
   connect(drawbar.rear, trailer.hitch) annotation(Line(points={{-20,0},{-30,0},{-30,30},{-90,30},{-90,0},{-80,0}}, color={0,127,0}));
   connect(drawbar.compression, linkage.compression) annotation(Line(points={{0,-20},{0,-60},{-20,-60}}, color={0,0,127}));
@@ -73,8 +75,8 @@ the step. <code>applied_force</code> tells which one is used; <code>F_hitch_hold
 <p>In Model Exchange, and before the first step, the three forces are equal and <code>coupling_energy</code> is 0. Their
 partial derivatives are in any case those of <code>F_hitch</code>, and 0.</p>
 <h2>Limits</h2>
-<p>Forward driving above 0.1 m/s (the tyre law divides by the speed), slip up to about 0.1, no drag, brakes that are
-torques and not friction.</p>
+<p>No drag, no rolling resistance, no reversing lock-out. From 0.5 m/s on the tyre force follows the slip without lag. With
+the default <code>mu</code> nothing limits it: hard braking and slips beyond about 0.1 need a true one.</p>
 <h2>Source</h2>
 <p>R. S. Sharp, <em>Longitudinal Oscillations of Vehicle/Trailer Combinations Induced by Overrun Braking</em>, Vehicle
 System Dynamics 11:1 (1982) 43-61, <a href=\"https://doi.org/10.1080/00423118208968687\">doi

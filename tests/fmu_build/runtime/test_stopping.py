@@ -1,0 +1,80 @@
+"""CarTrailer from 30 m/s to standstill and 10 s beyond: steps and events stay few, rest is reached and kept.
+
+The generated C and the runtime, as in the FMU, with a window to the runtime's counters; the tolerance is the default.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from generated_models import generate
+from runtime_unit import OK, Counters, Library, Unit, compile_model
+
+STEP = 0.01  # s
+BEYOND = 10.0  # s
+NAMES = ("v_car", "v_trailer", "compression", "F_hitch", "a_car", "a_trailer", "slip_car", "slip_trailer")
+
+# Strong enough to hold on any of the grades; with mu = 0.3 the second is beyond what the tyres can take.
+TORQUES = {1.0: (2000.0, 4000.0), 0.3: (900.0, 1600.0)}  # N.m, by friction
+
+
+@pytest.fixture(scope="module")
+def car_trailer(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> Library:
+    model = generate(modelica_library, "OverrunHitch.Systems.CarTrailer")
+    return compile_model(model, tmp_path_factory.mktemp("CarTrailer"))  # type: ignore[arg-type]
+
+
+def tries(counters: Counters) -> int:
+    return counters.steps + counters.rejected + counters.repeated
+
+
+def stop(library: Library, **values: float) -> tuple[np.ndarray, list[Counters]]:
+    """Rows of NAMES at the communication points, the counters there."""
+    unit = Unit(library, logging=True)
+    try:
+        assert unit.setup() == OK
+        assert unit.set(V_0=30.0, **values) == OK
+        assert unit.initialize() == OK
+        rows, counters, at_rest = [unit.get(*NAMES)], [unit.counters()], 0
+        while at_rest * STEP < BEYOND:
+            assert len(rows) * STEP < 100.0, "no rest"
+            assert unit.step(STEP, (len(rows) - 1) * STEP) == OK, unit.log
+            rows.append(unit.get(*NAMES))
+            counters.append(unit.counters())
+            at_rest = at_rest + 1 if np.abs(rows[-1][:2]).max() < 0.1 else 0
+        return np.array(rows), counters
+    finally:
+        unit.free()
+
+
+@pytest.mark.parametrize("grade", [-0.1, 0.0, 0.1])
+@pytest.mark.parametrize("mu", TORQUES)
+@pytest.mark.parametrize("eps", [0.0, 0.1])
+@pytest.mark.parametrize("C", [0.0, 100.0, 500.0, 3200.0])
+def test_a_stop(car_trailer: Library, C: float, eps: float, mu: float, grade: float) -> None:
+    for torque in TORQUES[mu]:
+        if mu == 0.3 and torque > 1000.0 and grade < 0.0:
+            continue  # wheels that slide hardly hold the weight on this slope: 80 s and 1 km
+        rows, counters = stop(car_trailer, C=C, eps=eps, mu=mu, grade=grade, brake_torque=torque)
+        assert np.isfinite(rows).all()
+        slow = np.abs(rows[:, :2]).max(axis=1) < 1e-6
+        stopped = np.flatnonzero(~slow)[-1] + 1  # the first point of the rest that lasts
+        standstill = np.argmax(rows[:, 0] < 0.1)
+        last, moving = counters[-1], counters[stopped]
+        print(
+            f"C = {C:g}, eps = {eps:g}, mu = {mu:g}, grade {grade:g}, {torque:g} N.m: standstill at "
+            f"{standstill * STEP:.2f} s, rest at {stopped * STEP:.2f} s of {(len(rows) - 1) * STEP:.2f} s; "
+            f"{last.steps} steps, {last.rejected} rejected, {last.repeated} repeated, {last.events} events"
+        )
+        # Rest comes while the drawbar still swings, at the latest: it takes seconds where it has no damper.
+        assert (stopped - standstill) * STEP < (6.0 if C == 0.0 else 4.0)
+        # An event is a passage of the drawbar through an end of its clearance: twice a period, of 0.2 s at least.
+        assert last.events < 12 * standstill * STEP
+        assert tries(moving) < 5 * stopped + 100  # where the trailer shunts and its wheels lock, again and again
+        # At rest there is nothing to do: a step for each communication step, and no events. (While the last
+        # micrometres a second die away a step may yet be rejected.)
+        assert last.events == moving.events
+        assert tries(last) - tries(moving) <= len(rows) - 1 - stopped + 10
+        np.testing.assert_array_less(np.abs(rows[stopped:, 2] - rows[-1, 2]), 1e-5)
