@@ -1,11 +1,13 @@
 .DEFAULT_GOAL := help
-.PHONY: help run report test test-platforms fuzz fmu fmu-all ssp bench sanitize lint format lock clean
+.PHONY: help run report test test-platforms fuzz fmu fmu-all ssp dist bench sanitize lint format lock clean
 
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
 UNITS := CarTrailer Car Trailer
 FMUS := $(foreach unit,$(UNITS),build/fmi2/$(unit).fmu build/fmi3/$(unit).fmu)
+READY_MADE := python/overrun_hitch/fmus
+DIST := $(foreach unit,$(UNITS),$(READY_MADE)/fmi2/$(unit).fmu $(READY_MADE)/fmi3/$(unit).fmu)
 BUILD := $(BIN)/python -m fmu_build modelica/OverrunHitch OverrunHitch.Systems
 SOURCES := $(READY) $(shell find modelica fmu_build -name '*.mo' -o -name '*.order' -o -name '*.py' -o -name '*.[ch]')
 C_FILES := fmu_build/runtime/*.[ch] tests/platforms/*.[ch] benchmarks/*.c
@@ -42,6 +44,15 @@ ssp: build/CarTrailer.ssp  ## wire Car and Trailer, with the nine cases' paramet
 build/CarTrailer.ssp: build/fmi2/Car.fmu build/fmi2/Trailer.fmu $(wildcard python/overrun_hitch/ssp*.py) python/overrun_hitch/parameters.py
 	$(BIN)/python -m overrun_hitch.ssp build/fmi2/Car.fmu build/fmi2/Trailer.fmu -o $@
 
+dist: $(READY) $(DIST)  ## make the wheel, with the FMUs for all systems in it (dist; minutes, the first time)
+	$(BIN)/hatchling build -t wheel
+
+$(READY_MADE)/fmi2/%.fmu: $(SOURCES)
+	$(BUILD).$* -o $@ --fmi 2 --platforms all
+
+$(READY_MADE)/fmi3/%.fmu: $(SOURCES)
+	$(BUILD).$* -o $@ --fmi 3 --platforms all
+
 bench: $(READY) $(word 1,$(FMUS))  ## measure six seconds in C against what they may take (benchmarks/results.md)
 	$(BIN)/python -m benchmarks.six_seconds $(word 1,$(FMUS))
 
@@ -69,7 +80,7 @@ lock: $(READY)  ## renew the pinned versions in requirements.txt
 	    --no-header --no-annotate pyproject.toml -o requirements.txt
 
 clean:  ## remove what was built; keep .venv
-	rm -rf build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf build dist $(READY_MADE) .pytest_cache .mypy_cache .ruff_cache .hypothesis
 
 $(READY): requirements.txt pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10) and "Python 3.10 or newer is needed; name one with make PYTHON=...")'

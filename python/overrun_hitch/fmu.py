@@ -1,4 +1,7 @@
-"""Where the FMU is, and making it where it is missing or older than what it is made of."""
+"""Where the FMU is, and making it where it is missing or older than what it is made of.
+
+In a clone of the repository it is built from the Modelica library; a wheel brings it ready-made.
+"""
 
 from __future__ import annotations
 
@@ -11,9 +14,10 @@ from pathlib import Path
 from overrun_hitch.parameters import HitchError
 
 ROOT = Path(__file__).resolve().parents[2]
-OURS = ROOT / "build" / "fmi2"  # a file there has the name of its class
-CAR_TRAILER, CAR, TRAILER = (OURS / f"{name}.fmu" for name in ("CarTrailer", "Car", "Trailer"))
 LIBRARY = ROOT / "modelica" / "OverrunHitch"
+READY_MADE = Path(__file__).resolve().parent / "fmus"  # put there by `make dist`
+OURS = (ROOT / "build" if LIBRARY.is_dir() else READY_MADE) / "fmi2"  # a file there has the name of its class
+CAR_TRAILER, CAR, TRAILER = (OURS / f"{name}.fmu" for name in ("CarTrailer", "Car", "Trailer"))
 GENERATOR = ROOT / "fmu_build"
 SOURCES = {".mo", ".order", ".py", ".c", ".h"}
 
