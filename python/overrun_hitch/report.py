@@ -23,6 +23,7 @@ from overrun_hitch.paper.claims import all_claims
 from overrun_hitch.paper.figures import figures, stem
 from overrun_hitch.paper.lessons import Lesson, amplitude_error, decides, lessons
 from overrun_hitch.paper.study import BRAKE_TORQUE, DAMPED, SETTINGS, Study
+from overrun_hitch.stopping import SLOWEST
 from overrun_hitch.svg import inline
 
 COMMAND = ".venv/bin/hitch report"  # what `make report` does
@@ -111,6 +112,7 @@ def page(report: Report) -> str:
         settings=SETTINGS,
         brake_torque=BRAKE_TORQUE,
         beyond=beyond,
+        slowest=SLOWEST,
         default_command=COMMAND,
         amplitude_error=amplitude_error,
         isnan=math.isnan,
@@ -127,7 +129,7 @@ def show(report: Report, path: Path) -> None:
 
 def _findings(study: Study, claims: Sequence[Claim]) -> list[Finding]:
     largest = jacobian.largest_difference(study.at_zero_slip)
-    checks, motions = study.boundary.checks, study.motions
+    checks, motions, stops = study.boundary.checks, study.motions, study.stops
     good = sum(check.holds for check in checks)
     return [
         Finding(claims_table.summary(claims), "claims", all(claim.verdict == "holds" for claim in claims)),
@@ -150,6 +152,14 @@ def _findings(study: Study, claims: Sequence[Claim]) -> list[Finding]:
             "others do not",
             "limit-cycles",
             decides(motions),
+        ),
+        Finding(
+            f"from {beyond.STOP_SPEED:g} m/s down to standstill the FMU's shunting grows and fades in the envelope that "
+            f"theory's growth rate predicts: in {len(stops)} stops, as far as theory applies, no amplitude differs by "
+            f"more than {100.0 * max(abs(stop.in_theory.largest_error) for stop in stops):.2g} % (allowed: "
+            f"{100.0 * beyond.STOP_ALLOWED:g} %)",
+            "standstill",
+            all(stop.agrees for stop in stops),
         ),
     ]
 

@@ -68,4 +68,12 @@ BEYOND: Mapping[str, tuple[str, str]] = {
         "three minutes, on the axis at 0 where it faded, under an arrow where it ran away. Lines and marks of the "
         "three clearances lie on one another where nothing strikes the tension stop.",
     ),
+    "stops": (
+        "Case ii from 40 m/s to rest",
+        "Above: the compression for C = 20 N.s/m, in the envelope that the growth rate predicts; at rest the trailer's "
+        "brake holds the drawbar where it is. Middle: the amplitudes of four stops, on a logarithmic scale; every other "
+        "extremum of the FMU's. Where the amplitude reaches the steady compression (the plus signs), the drawbar leaves "
+        "compression, the trailer's brake lets go, and the shunting grows less than predicted. Below: the same, as far "
+        "as theory applies, over what was predicted.",
+    ),
 }

@@ -1,4 +1,4 @@
-"""Every figure of the paper's results, recomputed, and the two beyond it."""
+"""Every figure of the paper's results, recomputed, and the three beyond it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_limits
 
 from overrun_hitch import figures as traces
 from overrun_hitch.locus_figure import LocusCurve, computed, draw_loci
-from overrun_hitch.paper import boundary_figure, cycles_figure, steady_figure
+from overrun_hitch.paper import boundary_figure, cycles_figure, steady_figure, stops_figure
 from overrun_hitch.paper.curves import DAMPERS, Locus
 from overrun_hitch.paper.study import Study
 
@@ -30,13 +30,14 @@ LIMITS: Mapping[str, tuple[tuple[float, float], ...]] = {
 
 
 def figures(study: Study, progress: Callable[[str], object] = lambda _: None) -> dict[str, Figure]:
-    """The figures by the paper's number, then "boundary" and "cycles"; `progress` is told what is being drawn."""
+    """The figures by the paper's number, then "boundary", "cycles" and "stops"; `progress` is told what is being drawn."""
     pictures: dict[str, Callable[[], Figure]] = {
         "3": partial(steady_figure.draw, study.steady_fmu),
         **{name: partial(_loci, loci) for name, loci in study.loci.items()},
         **{name: partial(_traces, run, LIMITS[name]) for name, run in study.runs.items()},
         "boundary": partial(boundary_figure.draw, study.boundary),
         "cycles": partial(cycles_figure.draw, study.motions),
+        "stops": partial(stops_figure.draw, study.stops),
     }
     drawn = {}
     with threadpool_limits(limits=1):  # see study.study

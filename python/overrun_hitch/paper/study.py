@@ -11,7 +11,7 @@ from threadpoolctl import threadpool_limits
 
 from overrun_hitch.compare import compare
 from overrun_hitch.linearisation import Linearisation, at_steady_braking, at_zero_slip
-from overrun_hitch.paper.beyond import Boundary, Motion, boundary, motions
+from overrun_hitch.paper.beyond import Boundary, Motion, Shunting, boundary, motions, stops
 from overrun_hitch.paper.curves import CURVES, Locus, V, locus
 from overrun_hitch.parameters import CASES, FIGURES, Parameters, Scenario
 from overrun_hitch.run import Settings, brake, car_alone
@@ -57,6 +57,7 @@ class Study:
     at_braking: Linearisation  # case ii, figure 8
     boundary: Boundary
     motions: tuple[Motion, ...]  # with clearance, at held speed
+    stops: tuple[Shunting, ...]  # to standstill
 
 
 def study(fmu: Path, progress: Callable[[str], object] = lambda _: None) -> Study:
@@ -80,6 +81,8 @@ def study(fmu: Path, progress: Callable[[str], object] = lambda _: None) -> Stud
         braking = at_steady_braking(unit, FIGURES["8"].parameters, V, BRAKE_TORQUE)
         progress("boundary of self-excitation")
         chart = boundary(unit)
+        progress("stops to standstill")
+        stopped = stops(unit)
         return Study(
             fmu=unit.name,
             guid=unit.guid,
@@ -93,6 +96,7 @@ def study(fmu: Path, progress: Callable[[str], object] = lambda _: None) -> Stud
             at_braking=braking,
             boundary=chart,
             motions=motions(unit, progress),
+            stops=stopped,
         )
 
 

@@ -1,0 +1,31 @@
+"""The envelope of an oscillation, from the peaks and valleys of a sampled trace, without any theory of the vehicle."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+def measured_envelope(time: Floats, trace: Floats) -> tuple[Floats, Floats]:
+    """Times (m,) in s of the extrema, but for the first and the last, and the amplitudes (m,) there, in the trace's unit.
+
+    trace (n,), sampled evenly at `time` (n,). Exact for a sine that grows or fades exponentially about a value that
+    stays, but for the parabola that is put through the three samples at each extremum.
+    """
+    instants, extrema = _extrema(time, trace)
+    before, after = np.abs(np.diff(extrema))[:-1], np.abs(np.diff(extrema))[1:]
+    # With a factor q from one extremum to the next the swings before and after are a (1 + 1/q) and a (1 + q).
+    at_extremum = before * after / (before + after)
+    # A growing sine has its extrema where the cosine is not quite 1.
+    tangent = np.log(after / before) / np.pi  # growth rate over angular frequency
+    return instants[1:-1], at_extremum * np.sqrt(1.0 + tangent**2)
+
+
+def _extrema(time: Floats, trace: Floats) -> tuple[Floats, Floats]:
+    slope = np.diff(trace)
+    at = np.flatnonzero(slope[:-1] * slope[1:] < 0.0) + 1
+    left, middle, right = trace[at - 1], trace[at], trace[at + 1]
+    offset = 0.5 * (left - right) / (left - 2.0 * middle + right)  # in samples
+    return time[at] + offset * (time[1] - time[0]), middle - 0.25 * (left - right) * offset
