@@ -9,10 +9,10 @@ Floats = NDArray[np.float64]
 
 
 def measured_envelope(time: Floats, trace: Floats) -> tuple[Floats, Floats]:
-    """Times (m,) in s of the extrema, but for the first and the last, and the amplitudes (m,) there, in the trace's unit.
+    """Times (m,) in s of the extrema, but for the first and the last, and the amplitudes (m,) there.
 
-    trace (n,), sampled evenly at `time` (n,). Exact for a sine that grows or fades exponentially about a value that
-    stays, but for the parabola that is put through the three samples at each extremum.
+    trace (n,) in any unit, sampled evenly at `time` (n,) in s. Exact for a sine that grows or fades exponentially about
+    a value that stays, but for the parabola that is put through the three samples at each extremum.
     """
     instants, extrema = _extrema(time, trace)
     before, after = np.abs(np.diff(extrema))[:-1], np.abs(np.diff(extrema))[1:]

@@ -56,4 +56,5 @@ def stop(unit: HitchUnit, scenario: Scenario) -> Stop:
         unit.step(n * STEP, STEP)
         rows.append(unit.outputs())
     v_car, compression = np.array(rows)[:, wanted].T
-    return Stop(scenario, np.arange(len(rows)) * STEP, v_car, compression)
+    time: Floats = np.arange(len(rows), dtype=np.float64) * STEP
+    return Stop(scenario, time, v_car, compression)

@@ -1,4 +1,4 @@
-"""The paper's figures and the two beyond it: what is drawn, on which axes, from which numbers."""
+"""The paper's figures and the three beyond it: what is drawn, on which axes, from which numbers."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def points(axes: Axes, marker: str) -> np.ndarray:
 
 
 def test_they_are_all_there(paper_figures: dict[str, Figure]) -> None:
-    assert list(paper_figures) == ["3", "4", "5", *TRACES, "boundary", "cycles"]
+    assert list(paper_figures) == ["3", "4", "5", *TRACES, "boundary", "cycles", "stops"]
     assert stem("6a") == "figure-6a" and stem("cycles") == "cycles"
     for figure in paper_figures.values():
         # Inner panels of a stack share the axis below.
@@ -120,3 +120,21 @@ def test_figure_3_shows_what_the_fmu_gave(paper_study: Study) -> None:
     wrong = {**paper_study.steady_fmu, "ii": dataclasses.replace(paper_study.steady_fmu["ii"], ratio=0.7)}
     axes = steady_figure.draw(wrong).axes[0]
     assert 0.7 in points(axes, "o")[:, 1]
+
+
+def test_stops_show_prediction_and_fmu(paper_figures: dict[str, Figure], paper_study: Study) -> None:
+    trace, amplitudes, errors = paper_figures["stops"].axes
+    compression, steady_line, *envelope = trace.lines[0], trace.lines[3], *trace.lines[1:3]
+    assert steady_line.get_linestyle() == "--" and len(set(steady_line.get_ydata())) == 1
+    below, above = (np.interp(compression.get_xdata(), *line.get_data()) for line in envelope)
+    at_speed = np.asarray(compression.get_xdata()) < 15.0
+    height = np.asarray(compression.get_ydata())[at_speed]
+    assert (height > below[at_speed] - 0.05).all() and (height < above[at_speed] + 0.05).all()
+    for found, marker in zip(paper_study.stops, "os^P", strict=True):
+        assert points(amplitudes, marker)[:, 1] == pytest.approx(1e3 * found.fmu.amplitude)
+        assert points(errors, marker)[:, 1] == pytest.approx(1e2 * found.in_theory.error)
+    low, high = errors.get_ylim()
+    assert all(low < y < high for marker in "os^P" for _, y in points(errors, marker))
+    turnings = sorted(points(amplitudes, "|")[:, 1])
+    assert turnings == pytest.approx(sorted(1e3 * found.fmu.predicted.max() for found in paper_study.stops
+                                            if found.turning < 40.0), rel=1e-3)  # fmt: skip

@@ -117,7 +117,7 @@ def test_ids_are_unique_and_lead_somewhere(text: str, page: Page) -> None:
 
 def test_every_figure_is_there_with_words(page: Page) -> None:
     figures = [attributes["id"] for tag, attributes in page.tags if tag == "figure"]
-    assert figures == [*PICTURES, "boundary", "cycles"]
+    assert figures == [*PICTURES, "boundary", "cycles", "stops"]
     drawn = [attributes for tag, attributes in page.tags if tag == "svg"]
     assert len(drawn) == len(figures)
     for name, attributes in zip(figures, drawn, strict=True):
@@ -161,6 +161,17 @@ def test_the_summary_and_the_matrices(page: Page, paper_study: Study) -> None:
     assert "shunting" in words and "rigid body (double zero)" in words
     assert paper_study.guid in page.texts["made"] and "fmpy" in page.texts["made"]
     assert "make report" in page.texts["made"]
+
+
+def test_the_envelopes_of_stops(page: Page, paper_study: Study) -> None:
+    summary, words = (" ".join(page.texts[name].split()) for name in ("summary", "standstill"))
+    assert "in 4 stops, as far as theory applies, no amplitude differs by more than 0.16 %" in summary
+    *to_the_end, leaves = paper_study.stops
+    assert all(found.lowest_speed < 0.55 for found in to_the_end) and 20.0 < leaves.lowest_speed < 35.0
+    for found in paper_study.stops:
+        assert found.agrees
+        assert found.turning_on_fmu == pytest.approx(found.turning, rel=0.02)
+        assert str(number(1000.0 * found.in_theory.predicted[-1], 4, True)) in words
 
 
 def test_slip_explains_what_differs_while_braking(paper_study: Study) -> None:
@@ -227,10 +238,13 @@ def test_each_finding_can_fail(paper_study: Study, made: Callable[..., report.Re
     check = dataclasses.replace(paper_study.boundary.checks[0], growth_above=1.0)
     boundary = dataclasses.replace(paper_study.boundary, checks=(check, *paper_study.boundary.checks[1:]))
     cycles = changed(paper_study, verdict="fades").motions
-    changes = ({"at_zero_slip": engaged}, {"boundary": boundary}, {"motions": cycles})
+    first, *others = paper_study.stops
+    envelope = dataclasses.replace(first.in_theory, amplitude=1.004 * first.in_theory.amplitude)
+    stops = (dataclasses.replace(first, in_theory=envelope), *others)
+    changes = ({"at_zero_slip": engaged}, {"boundary": boundary}, {"motions": cycles}, {"stops": stops})
     for place, change in enumerate(changes, start=1):
         found = made(dataclasses.replace(paper_study, **change))
-        assert [finding.holds for finding in found.findings] == [n != place for n in range(4)]
+        assert [finding.holds for finding in found.findings] == [n != place for n in range(5)]
         assert not found.holds and "does not hold" in Page(report.page(found)).texts["summary"]
 
 
@@ -248,7 +262,7 @@ def test_the_command_writes_the_page(
     assert "hitch report --fmu &#39;my unit.fmu&#39; --output" in written
     assert len(written) == pytest.approx(len(text), rel=0.01)
     out = " ".join(capsys.readouterr().out.split())
-    assert out.count("holds:") == 4 and "index.html" in out
+    assert out.count("holds:") == 5 and "index.html" in out
 
 
 def test_interrupted(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -309,6 +323,6 @@ def test_a_browser_opens_it_without_complaint(text: str, tmp_path: Path) -> None
     assert "CONSOLE" not in done.stderr
     page = Page(done.stdout.partition("\n")[2] if done.stdout.startswith("\n") else done.stdout)
     drawn = [attributes for tag, attributes in page.tags if tag == "svg"]
-    assert len(drawn) == len(PICTURES) + 2
+    assert len(drawn) == len(PICTURES) + 3
     assert sum(tag == "path" for tag, _ in page.tags) > 1000
     assert "13 of 13 claims" in page.texts["summary"]

@@ -124,7 +124,9 @@ class Shunting:
     def turning_on_fmu(self) -> float:
         """The speed (m/s) of the FMU's largest amplitude: the vertex of a parabola through its logarithm over speed."""
         found = self.in_theory
-        curvature, slope, _ = np.polyfit(np.interp(found.time, self.stop.time, self.stop.v_car), np.log(found.amplitude), 2)
+        curvature, slope, _ = np.polyfit(
+            np.interp(found.time, self.stop.time, self.stop.v_car), np.log(found.amplitude), 2
+        )
         return float(-0.5 * slope / curvature)
 
     @property

@@ -71,9 +71,9 @@ BEYOND: Mapping[str, tuple[str, str]] = {
     "stops": (
         "Case ii from 40 m/s to rest",
         "Above: the compression for C = 20 N.s/m, in the envelope that the growth rate predicts; at rest the trailer's "
-        "brake holds the drawbar where it is. Middle: the amplitudes of four stops, on a logarithmic scale; every other "
-        "extremum of the FMU's. Where the amplitude reaches the steady compression (the plus signs), the drawbar leaves "
-        "compression, the trailer's brake lets go, and the shunting grows less than predicted. Below: the same, as far "
-        "as theory applies, over what was predicted.",
+        "brake holds the drawbar where it is. Middle: the amplitudes of four stops on a logarithmic scale, every other "
+        "extremum of the FMU's. Once the amplitude exceeds the steady compression (the plus signs), the drawbar leaves "
+        "compression in every cycle, the trailer's brake lets go, and the shunting grows less than predicted. Below: "
+        "by how much amplitudes are more than predicted, as far as theory applies.",
     ),
 }

@@ -30,7 +30,7 @@ LIMITS: Mapping[str, tuple[tuple[float, float], ...]] = {
 
 
 def figures(study: Study, progress: Callable[[str], object] = lambda _: None) -> dict[str, Figure]:
-    """The figures by the paper's number, then "boundary", "cycles" and "stops"; `progress` is told what is being drawn."""
+    """The figures by the paper's number, then those of captions.BEYOND; `progress` is told what is being drawn."""
     pictures: dict[str, Callable[[], Figure]] = {
         "3": partial(steady_figure.draw, study.steady_fmu),
         **{name: partial(_loci, loci) for name, loci in study.loci.items()},

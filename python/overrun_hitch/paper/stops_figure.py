@@ -1,4 +1,4 @@
-"""Shunting on the way to standstill: a trace in its predicted envelope, the envelopes of several stops, their errors."""
+"""Shunting on the way to standstill: a trace in its predicted envelope, envelopes of several stops, their errors."""
 
 from __future__ import annotations
 
@@ -76,7 +76,14 @@ def _draw_trace(axes: Axes, found: Shunting) -> None:
     axes.set_ylabel("Compression (mm)")
     V_0 = stop.scenario.parameters.V_0
     A = float(speed(stop.scenario, np.ones(1))[0]) - V_0
-    speeds = axes.secondary_xaxis("top", functions=(lambda t: V_0 + A * t, lambda V: (V - V_0) / A))
+
+    def speed_at(time: Any) -> Any:
+        return V_0 + A * time
+
+    def time_of(V: Any) -> Any:
+        return (V - V_0) / A
+
+    speeds = axes.secondary_xaxis("top", functions=(speed_at, time_of))
     speeds.set_xticks(np.arange(0.0, V_0 + 1.0, 10.0))
     speeds.set_xlabel("Speed (m/s)")
 
