@@ -155,8 +155,8 @@ def _findings(study: Study, claims: Sequence[Claim]) -> list[Finding]:
         ),
         Finding(
             f"from {beyond.STOP_SPEED:g} m/s down to standstill the FMU's shunting grows and fades in the envelope "
-            f"that theory's growth rate predicts: in {len(stops)} stops, as far as theory applies, no amplitude differs "
-            f"by more than {100.0 * max(abs(stop.in_theory.largest_error) for stop in stops):.2g} % (allowed: "
+            f"that theory's growth rate predicts: in {len(stops)} stops, as far as theory applies, no amplitude "
+            f"differs by more than {100.0 * max(abs(stop.in_theory.largest_error) for stop in stops):.2g} % (allowed: "
             f"{100.0 * beyond.STOP_ALLOWED:g} %)",
             "standstill",
             all(stop.agrees for stop in stops),
