@@ -117,6 +117,15 @@ def test_the_fmu_shunts_in_the_predicted_envelope(unit: HitchUnit, C: float, sha
     assert len(off) > 40 and np.abs(off).max() < 2e-3
 
 
+def test_a_small_disturbance_is_drowned_by_the_wheels_start(unit: HitchUnit) -> None:
+    """A start of 0.5 mm becomes 5 % larger at once, on the FMU and by the linear equations; then it grows alike."""
+    scenario = braking(case_ii(60.0), 0.02)
+    found = stop(unit, scenario)
+    time, amplitude = measured_envelope(moving(scenario), integrated_compression(scenario, moving(scenario)))
+    for off in (error(found, found.in_theory), amplitude / predicted_amplitude(scenario, time) - 1.0):
+        assert off == pytest.approx(0.05, abs=2e-3)
+
+
 def test_a_wrong_growth_rate_would_be_seen(unit: HitchUnit, monkeypatch: pytest.MonkeyPatch) -> None:
     """1 % more than theory's, or that of a damper of 61 instead of 60 N.s/m."""
     strong, balanced = (stop(unit, braking(case_ii(C), share)) for C, share in ((130.0, 0.8), (60.0, 0.2)))
