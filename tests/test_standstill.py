@@ -115,7 +115,7 @@ def test_released_on_a_slope_it_rolls_down(unit: Unit, grade: float) -> None:
 
 
 def test_the_overrun_brake_holds_a_trailer_that_pushes(unit: Unit) -> None:
-    """Downhill the car's brakes hold it back, the trailer pushes and brakes itself; without a linkage it only pushes."""
+    """Downhill the car is held back, the trailer pushes and brakes itself; without a linkage it only pushes."""
     speeds = []
     for r in (DATUM.r, 0.0):
         start(unit, brake_torque=200.0, grade=-0.1, V_0=0.0, C=2000.0, r=r)
