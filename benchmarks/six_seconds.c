@@ -12,18 +12,18 @@
 #include <time.h>
 
 #include "fmi2_component.h"
-#include "inverse.h"
+#include "lu.h"
 #include "rodas5p.h"
 
 enum { STEPS = 600, MAX_RUNS = 10000, KINDS = 5 };
 
-static const char *const kind_name[KINDS] = {"right-hand side", "Jacobian", "inversion", "solution", "outputs"};
+static const char *const kind_name[KINDS] = {"right-hand side", "Jacobian", "factorization", "solution", "outputs"};
 
 typedef struct {
     Variables v; /* half-way through the run */
     bool holds[AT_LEAST_ONE(N_RELATIONS)];
     long count[KINDS]; /* how many a run takes; outputs are not among what the requirement counts */
-    double matrix[AT_LEAST_ONE(N_STATES * N_STATES)];
+    double jacobian[AT_LEAST_ONE(N_JACOBIAN)];
 } Arithmetic;
 
 static double now(void)
@@ -54,21 +54,15 @@ static double run(fmi2Component c, const fmi2ValueReference references[], double
     return fine ? now() - start : (double)NAN;
 }
 
-/* What the counters say that a run takes. Each trial of a step has one inversion and a solution for each stage;
+/* What the counters say that a run takes. Each trial of a step has one factorization and a solution for each stage;
  * its first stage uses the right-hand side of the step's start. */
 static void count(Arithmetic *taken, const Counters *n)
 {
     const long trials = (long)(n->evaluations - n->jacobians) / (RODAS_STAGES - 1);
     const long counts[KINDS] = {(long)n->evaluations, (long)n->jacobians, trials, trials * RODAS_STAGES, STEPS};
-    double jacobian[AT_LEAST_ONE(N_STATES * N_STATES)];
     double time_derivative[AT_LEAST_ONE(N_STATES)];
     memcpy(taken->count, counts, sizeof counts);
-    model_jacobian(&taken->v, taken->holds, jacobian, time_derivative);
-    for (int i = 0; i < N_STATES; i++) {
-        for (int j = 0; j < N_STATES; j++) { /* I / (gamma h) - J, column by column */
-            taken->matrix[j * N_STATES + i] = (i == j ? 1.0 / (RODAS_GAMMA * 0.01) : 0.0) - jacobian[i * N_STATES + j];
-        }
-    }
+    model_jacobian(&taken->v, taken->holds, taken->jacobian, time_derivative);
 }
 
 /* CPU times in seconds of each kind of arithmetic, as often as a run takes it. */
@@ -76,7 +70,8 @@ static void calculate(const Arithmetic *taken, double times[])
 {
     static volatile double sink;
     static _Alignas(64) Variables v; /* static: where the system puts the stack must not matter */
-    static _Alignas(64) double matrix[AT_LEAST_ONE(N_STATES * N_STATES)];
+    static _Alignas(64) double jacobian[AT_LEAST_ONE(N_JACOBIAN)];
+    static _Alignas(64) double factors[AT_LEAST_ONE(N_FACTORS)];
     static _Alignas(64) double vector[AT_LEAST_ONE(N_STATES)];
     v = taken->v;
     for (int kind = 0; kind < KINDS; kind++) {
@@ -85,12 +80,11 @@ static void calculate(const Arithmetic *taken, double times[])
             if (kind == 0) {
                 model_derivatives(&v, taken->holds);
             } else if (kind == 1) {
-                model_jacobian(&v, taken->holds, matrix, vector);
+                model_jacobian(&v, taken->holds, jacobian, vector);
             } else if (kind == 2) {
-                memcpy(matrix, taken->matrix, sizeof matrix);
-                sink = inverse_make(matrix) ? matrix[0] : 0.0;
-            } else if (kind == 3) { /* with the inverse of the last kind */
-                inverse_apply(matrix, &v.at[FIRST_STATE], vector);
+                sink = lu_factorize(taken->jacobian, 1.0 / (RODAS_GAMMA * 0.01), factors) ? factors[0] : 0.0;
+            } else if (kind == 3) { /* with the factors of the last kind */
+                lu_solve(factors, &v.at[FIRST_STATE], vector);
                 sink = vector[0];
             } else {
                 model_outputs(&v, taken->holds);

@@ -238,12 +238,10 @@ def _jacobian(model: SortedModel, jacobian: JacobianModel, printer: _Printer) ->
         f"const double {local_name(a.target)} = {printer.text(a.expression)}; /* {a.origin} */"
         for a in jacobian.assignments
     ]
-    count = len(model.states)
-    lines.append("for (int i = 0; i < N_STATES * N_STATES; i++) jacobian[i] = 0.0;" if count else "")
-    lines.append("for (int i = 0; i < N_STATES; i++) time_derivative[i] = 0.0;" if count else "")
-    for (row, column), value in jacobian.entries.items():
+    lines.append("for (int i = 0; i < N_STATES; i++) time_derivative[i] = 0.0;" if model.states else "")
+    for index, ((row, column), value) in enumerate(jacobian.entries.items()):
         comment = f"{model.derivatives[row]} by {model.states[column]}"
-        lines.append(f"jacobian[{row} * N_STATES + {column}] = {printer.text(value)}; /* {comment} */")
+        lines.append(f"jacobian[{index}] = {printer.text(value)}; /* {comment} */")
     lines += [f"time_derivative[{row}] = {printer.text(value)};" for row, value in jacobian.time_entries.items()]
     signature = "model_jacobian(Variables *v, const bool holds[], double jacobian[], double time_derivative[])"
     return _function(signature, [line for line in lines if line])

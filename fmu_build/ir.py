@@ -229,7 +229,8 @@ class Partials:
 class JacobianModel:
     """Exact derivatives: those of every assignment by itself, and chained those of the states' derivatives.
 
-    The chained ones are local assignments, then one entry per pair (derivative, state) that can be nonzero.
+    The chained ones are local assignments, then one entry per pair (derivative, state) that can be nonzero. The order
+    of ``entries`` is that of the array in which the C code keeps them.
     """
 
     parameter_partials: tuple[Partials, ...]
@@ -238,6 +239,19 @@ class JacobianModel:
     assignments: tuple[Assignment, ...]
     entries: dict[tuple[int, int], sympy.Expr] = field(hash=False)
     time_entries: dict[int, sympy.Expr] = field(hash=False)
+
+
+@dataclass(frozen=True)
+class Elimination:
+    """Gaussian elimination of I/(gamma h) - J: which state is the pivot when, and where L and U are not zero.
+
+    ``jacobian`` has (row, column) of the entries of J. ``pattern`` counts rows and columns in the order of elimination;
+    it is sorted by rows, then by columns, and has the whole diagonal.
+    """
+
+    jacobian: tuple[tuple[int, int], ...]
+    order: tuple[int, ...]
+    pattern: tuple[tuple[int, int], ...]
 
 
 @dataclass(frozen=True)

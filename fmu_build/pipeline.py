@@ -7,14 +7,16 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from .archive import content_token, write_fmu
+from .c_elimination import print_elimination
 from .c_model import print_c
 from .compile import compile_library, named_platforms
 from .contents import SOURCES, contents
+from .elimination import eliminate
 from .equations import derive
 from .fat_mach_o import universal
 from .frontend import flatten, simulate
 from .interface import expose
-from .ir import TOKEN_PLACEHOLDER
+from .ir import TOKEN_PLACEHOLDER, CSources
 from .jacobian import differentiate
 from .ports import declare
 from .sort import sort
@@ -39,8 +41,11 @@ def build(
     system = derive(flat)  # EquationSystem: equations, states, relations, parameters
     model = sort(system)  # SortedModel: assignments in the order of computation
     jacobian = differentiate(model)  # JacobianModel: exact partial derivatives
+    elimination = eliminate(jacobian.entries, len(model.states))  # Elimination: pivots, pattern of the factors
     ports = declare(flat, model)  # Ports: coupling and terminals, if the class declares some
-    generated = print_c(model, jacobian, identifier, ports.coupling)  # CSources: variables.h, model.c
+    equations = print_c(model, jacobian, identifier, ports.coupling)  # CSources: variables.h, model.c
+    algebra = print_elimination(elimination)  # CSources: elimination.h, elimination.c
+    generated = CSources(equations.files | algebra.files)
     interface = expose(model, identifier, ports.terminals)  # Interface: variables in their roles, dependencies
 
     simulations = [simulate(modelica, example) for example in flat.examples]  # Simulation: another tool's results

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "finite.h"
-#include "inverse.h"
+#include "lu.h"
 #include "stepping.h"
 
 /* A change of u over a step so much shorter than the next one is mostly rounding: the slope stays what it was. */
@@ -50,19 +50,6 @@ static void begin_first(State *s)
     c->work = s->v.at[coupling_info.work];
 }
 
-/* I - lag J, column by column, from J, row by row. */
-static void resolvent(double a[], double lag)
-{
-    for (int i = 0; i < N_STATES; i++) {
-        for (int j = 0; j < i; j++) {
-            const double upper = a[j * N_STATES + i];
-            a[j * N_STATES + i] = -lag * a[i * N_STATES + j];
-            a[i * N_STATES + j] = -lag * upper;
-        }
-        a[i * N_STATES + i] = 1.0 - lag * a[i * N_STATES + i];
-    }
-}
-
 /* u was wrong by `error` at the end of the last step. On the way there, at the share s of the step, it was wrong by
  * error ((1 - q) s + q s^2): q is 0 if u was held while it moved steadily, 1 if its slope was right at the start, in
  * between if the slope was that of the step before. The integral of this, times df/du, is what the states lack; how
@@ -77,13 +64,13 @@ static void correct(Instance *instance, double error)
     d.at[coupling_info.across] = error * c->size * (0.5 - q / 6.0);
     model_tangent(&s->v, s->holds, false, &d);
     model_jacobian(&s->v, s->holds, r->jacobian, r->time_derivative);
-    resolvent(r->jacobian, c->size * (2.0 - q) / (6.0 - 2.0 * q));
-    if (!inverse_make(r->jacobian)) {
+    const double per_lag = (6.0 - 2.0 * q) / (c->size * (2.0 - q));
+    if (!lu_factorize(r->jacobian, per_lag, r->factors)) {
         return;
     }
-    inverse_apply(r->jacobian, &d.at[FIRST_DERIVATIVE], r->end);
+    lu_solve(r->factors, &d.at[FIRST_DERIVATIVE], r->end); /* (I - lag J) x = d: (I / lag - J) x = d / lag */
     for (int i = 0; i < N_STATES; i++) {
-        r->end[i] += s->v.at[FIRST_STATE + i];
+        r->end[i] = s->v.at[FIRST_STATE + i] + per_lag * r->end[i];
     }
     if (first_not_finite(r->end, N_STATES) == FINITE) {
         memcpy(&s->v.at[FIRST_STATE], r->end, N_STATES * sizeof(double));

@@ -66,18 +66,19 @@ static double error_norm(const Rodas *r, double tolerance)
  * derivative comes from the Jacobian instead of a difference quotient. */
 static double first_length(const Rodas *r, double tolerance)
 {
+    Vector second;
+    memcpy(second, r->time_derivative, sizeof second);
+    for (int e = 0; e < N_JACOBIAN; e++) {
+        second[jacobian_row[e]] += r->jacobian[e] * r->derivative[jacobian_column[e]];
+    }
     double d0 = 0.0;
     double d1 = 0.0;
     double d2 = 0.0;
     for (int i = 0; i < N_STATES; i++) {
-        double second = r->time_derivative[i];
-        for (int j = 0; j < N_STATES; j++) {
-            second += r->jacobian[i * N_STATES + j] * r->derivative[j];
-        }
         const double allowed = integrator_allowed_error(i, r->state[i], tolerance);
         d0 = fmax(d0, fabs(r->state[i]) / allowed);
         d1 = fmax(d1, fabs(r->derivative[i]) / allowed);
-        d2 = fmax(d2, fabs(second) / allowed);
+        d2 = fmax(d2, fabs(second[i]) / allowed);
     }
     const double h0 = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;
     const double d = fmax(d1, d2);

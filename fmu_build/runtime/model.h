@@ -1,8 +1,8 @@
 /* The contract between a generated model and the runtime.
  *
- * The generator writes variables.h (sizes, the Variables union, the model's identity) and model.c (everything declared
- * below). The runtime is written against this header alone and is compiled once for each model, so that every size is
- * a compile-time constant.
+ * The generator writes variables.h (sizes, the Variables union, the model's identity), elimination.h (the sizes of the
+ * Jacobian and its factors), model.c and elimination.c (everything declared below). The runtime is written against this
+ * header alone and is compiled once for each model, so that every size is a compile-time constant.
  *
  * Variables.at[] holds every Real of the model; its index is the FMI value reference. The order is
  *     time | states | derivatives of the states, in their order | inputs | parameters | calculated parameters | others
@@ -17,6 +17,7 @@
 
 #include <stdbool.h>
 
+#include "elimination.h"
 #include "variables.h"
 
 /* variables.h defines (example of a model with 2 states, 1 input, 2 parameters and 1 relation):
@@ -84,6 +85,23 @@ typedef struct {
 extern const CouplingInfo coupling_info;
 #endif
 
+/* Where the N_JACOBIAN entries of the Jacobian J stand, and where its N_FACTORS factors do: those of L, D, U in the
+ * product L D U = shift I - J with rows and columns in the order in which the states are eliminated, row by row. */
+extern const int jacobian_row[AT_LEAST_ONE(N_JACOBIAN)];
+extern const int jacobian_column[AT_LEAST_ONE(N_JACOBIAN)];
+extern const int jacobian_factor[AT_LEAST_ONE(N_JACOBIAN)]; /* the factor that takes the entry's place */
+extern const int pivot_state[AT_LEAST_ONE(N_STATES)];       /* the order of elimination */
+extern const int pivot_factor[AT_LEAST_ONE(N_STATES)];      /* the factor on the diagonal of each row */
+extern const int first_factor[N_STATES + 1];                /* of each row, and the end of the last */
+extern const int factor_column[AT_LEAST_ONE(N_FACTORS)];
+
+/* What lu.h declares, a line for each operation; there are so few if ELIMINATION_WRITTEN_OUT is 1 (a macro, because it
+ * decides what is compiled). */
+#if ELIMINATION_WRITTEN_OUT
+void model_factorize(const double *restrict jacobian, double shift, double *restrict factors);
+void model_solve(const double *restrict factors, const double *restrict b, double *restrict x);
+#endif
+
 /* Every function reads and writes v only; each computes all intermediate variables that it needs by itself. */
 
 /* Calculated parameters, from parameters. */
@@ -98,8 +116,8 @@ void model_derivatives(Variables *v, const bool holds[]);
 /* All variables. */
 void model_outputs(Variables *v, const bool holds[]);
 
-/* jacobian[i * N_STATES + j] = d derivative[i] / d state[j] and time_derivative[i] = d derivative[i] / d time, partial;
- * exact between events. */
+/* jacobian[e] = d derivative[jacobian_row[e]] / d state[jacobian_column[e]], time_derivative[i] = d derivative[i] / d
+ * time, partial; exact between events. Entries of the Jacobian that are always zero have no e. */
 void model_jacobian(Variables *v, const bool holds[], double jacobian[], double time_derivative[]);
 
 /* Residuals of the relations. */

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "inverse.h"
+#include "lu.h"
 
 /* The derivatives, which the model has just stored one by one. They are loaded one by one as well (volatile): compilers
  * would load them in pairs, for which processors wait until both stores have reached the cache. (6 % of a run.) */
@@ -25,6 +25,16 @@ static void add_moving_inputs(Rodas *r, const Variables *v, const bool holds[])
     memcpy(r->time_derivative, &d.at[FIRST_DERIVATIVE], N_STATES * sizeof(double));
 }
 
+static int first_bad_gradient(const Rodas *r)
+{
+    for (int e = 0; e < N_JACOBIAN; e++) {
+        if (!isfinite(r->jacobian[e])) {
+            return jacobian_row[e];
+        }
+    }
+    return first_not_finite(r->time_derivative, N_STATES);
+}
+
 int rodas_start(Rodas *r, Variables *v, const bool holds[], const Ramp *ramp)
 {
     r->ramp = ramp;
@@ -40,16 +50,7 @@ int rodas_start(Rodas *r, Variables *v, const bool holds[], const Ramp *ramp)
     if (bad != FINITE) {
         return bad;
     }
-    for (int i = 0; i < N_STATES; i++) {
-        double sum = r->time_derivative[i];
-        for (int j = 0; j < N_STATES; j++) {
-            sum += r->jacobian[i * N_STATES + j];
-        }
-        if (!isfinite(sum)) {
-            return i;
-        }
-    }
-    return FINITE;
+    return first_bad_gradient(r);
 }
 
 void rodas_back(const Rodas *r, Variables *v)
@@ -99,25 +100,12 @@ static int stage_derivative(Rodas *r, int stage, Variables *v, const bool holds[
     return first_not_finite(f, N_STATES);
 }
 
-/* The inverse of I / (gamma h) - J. It is kept column by column, J row by row. */
-static bool invert_matrix(const Rodas *r, double inverse[])
-{
-    for (int i = 0; i < N_STATES; i++) {
-        for (int j = 0; j < N_STATES; j++) {
-            inverse[j * N_STATES + i] = -r->jacobian[i * N_STATES + j];
-        }
-        inverse[i * N_STATES + i] += 1.0 / (RODAS_GAMMA * r->length);
-    }
-    return inverse_make(inverse);
-}
-
 int rodas_try(Rodas *r, double length, Variables *v, const bool holds[])
 {
-    double inverse[AT_LEAST_ONE(N_STATES * N_STATES)];
     Vector f;
     Vector right;
     r->length = length;
-    if (!invert_matrix(r, inverse)) {
+    if (!lu_factorize(r->jacobian, 1.0 / (RODAS_GAMMA * length), r->factors)) {
         return 0;
     }
     const double per_length = 1.0 / length;
@@ -131,7 +119,7 @@ int rodas_try(Rodas *r, double length, Variables *v, const bool holds[])
         for (int i = 0; i < N_STATES; i++) {
             right[i] = f[i] + right[i] * per_length + weight * r->time_derivative[i];
         }
-        inverse_apply(inverse, right, r->u[stage]);
+        lu_solve(r->factors, right, r->u[stage]);
     }
     for (int i = 0; i < N_STATES; i++) { /* v still holds the argument of the last stage, the embedded solution */
         r->error[i] = r->u[RODAS_STAGES - 1][i];

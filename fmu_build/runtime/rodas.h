@@ -15,12 +15,13 @@ typedef struct {
     double time;
     Vector state;
     Vector derivative;
-    double jacobian[AT_LEAST_ONE(N_STATES * N_STATES)];
+    double jacobian[AT_LEAST_ONE(N_JACOBIAN)];
     Vector time_derivative;
     /* What the last trial of a length gave */
     double length;
-    Vector end;   /* state at time + length */
-    Vector error; /* its estimated error */
+    double factors[AT_LEAST_ONE(N_FACTORS)]; /* of I / (gamma length) - J */
+    Vector end;                              /* state at time + length */
+    Vector error;                            /* its estimated error */
     Vector u[RODAS_STAGES];
     Vector bend[RODAS_DENSE]; /* after rodas_bend */
 } Rodas;

@@ -10,8 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fmu_build.c_elimination import print_elimination
 from fmu_build.c_model import print_c
 from fmu_build.compile import RUNTIME, WARNINGS, compiler
+from fmu_build.elimination import eliminate
 from fmu_build.equations import derive
 from fmu_build.frontend import flatten
 from fmu_build.ir import SortedModel
@@ -44,13 +46,16 @@ class CompiledModel:
     """The generated C of a model, without the runtime, behind numpy arrays."""
 
     def __init__(self, model: SortedModel, folder: Path) -> None:
-        for name, text in print_c(model, differentiate(model), "M").files.items():
+        jacobian = differentiate(model)
+        algebra = print_elimination(eliminate(jacobian.entries, len(model.states)))
+        for name, text in {**print_c(model, jacobian, "M").files, **algebra.files}.items():
             (folder / name).write_text(text, encoding="utf-8")
         library = folder / "model.so"
         flags = ["-std=c11", "-O1", "-fPIC", "-shared", *WARNINGS, "-Werror", f"-I{folder}", f"-I{RUNTIME}"]
         subprocess.run([*compiler(), *flags, str(folder / "model.c"), "-o", str(library), "-lm"], check=True)
         self._library = ctypes.CDLL(str(library))
         self.model = model
+        self._entries = tuple(jacobian.entries)
         self.references = model.value_references
         self.at = np.zeros(len(self.references))
         for name in (*model.parameters, *model.states, *model.inputs):
@@ -83,8 +88,11 @@ class CompiledModel:
 
     def jacobian(self) -> np.ndarray:
         count = len(self.model.states)
-        jacobian, time_derivative = np.full((count, count), np.nan), np.full(count, np.nan)
-        self._call("model_jacobian", self.relations() > 0, jacobian, time_derivative)
+        jacobian, time_derivative = np.zeros((count, count)), np.full(count, np.nan)
+        entries = np.full(len(self._entries), np.nan)
+        self._call("model_jacobian", self.relations() > 0, entries, time_derivative)
+        for place, value in zip(self._entries, entries, strict=True):
+            jacobian[place] = value
         return np.column_stack([jacobian, time_derivative])
 
     def tangent(self, seeds: dict[str, float], at_start: bool) -> dict[str, float]:

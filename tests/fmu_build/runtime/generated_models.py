@@ -7,7 +7,9 @@ from pathlib import Path
 
 from runtime_models import TOKEN
 
+from fmu_build.c_elimination import print_elimination
 from fmu_build.c_model import print_c
+from fmu_build.elimination import eliminate
 from fmu_build.equations import derive
 from fmu_build.frontend import flatten
 from fmu_build.ir import TOKEN_PLACEHOLDER
@@ -40,17 +42,14 @@ end Nonlinear;
 @dataclass(frozen=True)
 class GeneratedModel:
     name: str
-    variables_h: str
-    model_c: str
+    sources: dict[str, str]
     value_references: dict[str, int]
     states: tuple[str, ...]
     relations: tuple[object, ...]
 
-    def header(self) -> str:
-        return self.variables_h.replace(TOKEN_PLACEHOLDER, TOKEN)
-
-    def source(self) -> str:
-        return self.model_c
+    def files(self) -> dict[str, str]:
+        header = self.sources["variables.h"].replace(TOKEN_PLACEHOLDER, TOKEN)
+        return {**self.sources, "variables.h": header}
 
     def references(self) -> dict[str, int]:
         return self.value_references
@@ -60,11 +59,11 @@ def generate(modelica: Path, class_name: str) -> GeneratedModel:
     flat = flatten(modelica, class_name)
     model = sort(derive(flat))
     name = class_name.rpartition(".")[2]
-    files = print_c(model, differentiate(model), name, declare(flat, model).coupling).files
+    jacobian = differentiate(model)
+    algebra = print_elimination(eliminate(jacobian.entries, len(model.states)))
     return GeneratedModel(
         name,
-        files["variables.h"],
-        files["model.c"],
+        print_c(model, jacobian, name, declare(flat, model).coupling).files | algebra.files,
         dict(model.value_references),
         tuple(model.states),
         tuple(model.relations),

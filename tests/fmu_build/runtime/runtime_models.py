@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf
 
+from fmu_build.c_elimination import print_elimination
+from fmu_build.elimination import eliminate
+
 TOKEN = "{0c9d3f3e-hand-written}"
 
 
@@ -59,6 +62,12 @@ class Model:
     def references(self) -> dict[str, int]:
         return {v.name: i for i, v in enumerate(self.variables())}
 
+    def files(self) -> dict[str, str]:
+        """The generated files: what the runtime's sources are compiled with."""
+        entries = [place for place in self.jacobian if place[1] >= 0]
+        algebra = print_elimination(eliminate(entries, len(self.states)))
+        return {"variables.h": self.header(), "model.c": self.source(), **algebra.files}
+
     def header(self) -> str:
         names = " ".join(f"double {v.name};" for v in self.variables())
         return f"""#ifndef VARIABLES_H
@@ -82,15 +91,15 @@ typedef union {{
 """
 
     def source(self) -> str:
-        n = len(self.states)
         rows = ",\n".join(
             f'    {{"{v.name}", "{v.unit}", {v.kind}, {c(v.start)}, {c(v.min)}, {c(v.max)}, {c(v.nominal)}}}'
             for v in self.variables()
         )
         texts = ", ".join(f'"{text}"' for text, _ in self.relations) or '""'
+        slopes = [e for (_, j), e in self.jacobian.items() if j >= 0]
         entries = "\n".join(
-            f"    time_derivative[{i}] = {e};" if j < 0 else f"    jacobian[{i * n + j}] = {e};"
-            for (i, j), e in self.jacobian.items()
+            [f"    jacobian[{index}] = {e};" for index, e in enumerate(slopes)]
+            + [f"    time_derivative[{i}] = {e};" for (i, j), e in self.jacobian.items() if j < 0]
         )
         residuals = "\n".join(f"    z[{i}] = v->residual_{i} = {e};" for i, (_, e) in enumerate(self.relations))
         references = ", ".join(str(self.references()[f"residual_{i}"]) for i in range(len(self.relations))) or "0"
@@ -123,9 +132,7 @@ void model_outputs(Variables *v, const bool holds[]) {{
 void model_jacobian(Variables *v, const bool holds[], double jacobian[], double time_derivative[]) {{
     (void)v;
     (void)holds;
-    for (int i = 0; i < N_STATES * N_STATES; i++) {{
-        jacobian[i] = 0.0;
-    }}
+    (void)jacobian;
     for (int i = 0; i < N_STATES; i++) {{
         time_derivative[i] = 0.0;
     }}

@@ -222,11 +222,11 @@ class Unit:
 def compile_sources(model: Model, folder: Path, fmi: int, flags: list[str], extra: str, output: str) -> Path:
     """The runtime with one facade, the model, and one more file of this folder."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "variables.h").write_text(model.header(), encoding="utf-8")
-    (folder / "model.c").write_text(model.source(), encoding="utf-8")
+    for name, text in model.files().items():
+        (folder / name).write_text(text, encoding="utf-8")
     other = {2: "fmi3", 3: "fmi2"}[fmi]
     runtime = [file for file in sorted(RUNTIME.glob("*.c")) if not file.name.startswith(other)]
-    sources = [*runtime, Path(__file__).parent / extra, folder / "model.c"]
+    sources = [*runtime, Path(__file__).parent / extra, *sorted(folder.glob("*.c"))]
     compiler = os.environ.get("CC") or shutil.which("cc") or shutil.which("gcc")
     assert compiler is not None, "these tests need a C compiler"
     command = [compiler, *flags, f"-I{folder}", f"-I{RUNTIME}", f"-isystem{FMI_HEADERS}", *map(str, sources)]

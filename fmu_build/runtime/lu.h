@@ -1,0 +1,21 @@
+/* The matrix s I - J of the model's Jacobian J as a product L D U of sparse triangular matrices.
+ *
+ * Pivots come from the diagonal, in the order that the generator has chosen: where the factors are not zero is known
+ * when the model is built. Nothing is exchanged for the sake of size. For short steps (large s) nothing has to be, as
+ * the diagonal prevails; for longer ones the error estimate of a step, in which eight solutions have to fit together,
+ * shows that digits have been lost. */
+#ifndef LU_H
+#define LU_H
+
+#include <stdbool.h>
+
+#include "model.h"
+
+/* The factors of shift I - J: D inverted on the diagonal; on those of L and U, which is not stored, there are ones.
+ * False: a pivot is zero or not finite. */
+bool lu_factorize(const double jacobian[], double shift, double factors[]);
+
+/* (shift I - J) x = b; x and b do not overlap. */
+void lu_solve(const double factors[], const double b[], double x[]);
+
+#endif
