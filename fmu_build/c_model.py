@@ -78,6 +78,12 @@ class _Printer(C11CodePrinter):  # type: ignore[misc]
             return f"({product})" if exponent > 0 else f"1.0/({product})"
         return str(super()._print_Pow(expr))
 
+    def _print_sin(self, expr: sympy.sin) -> str:
+        return f"sine({self._print(expr.args[0])})"
+
+    def _print_atan(self, expr: sympy.atan) -> str:
+        return f"arctangent({self._print(expr.args[0])})"
+
     def _print_Piecewise(self, expr: sympy.Piecewise) -> str:
         *branches, (last, _) = expr.args
         text = str(self._print(last))
@@ -153,6 +159,8 @@ def _model(model: SortedModel, jacobian: JacobianModel, printer: _Printer) -> st
 #include "model.h"
 
 #include <math.h>
+
+#include "elementary.h"
 
 const VariableInfo variable_info[N_VARIABLES] = {{
 {rows}
