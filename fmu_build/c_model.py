@@ -23,7 +23,7 @@ from .ir import (
     Variable,
     relation_name,
 )
-from .slices import needed_for, start_value, tunable_parameters
+from .slices import needed_for, start_value, steady, tunable_parameters
 
 C_KEYWORDS = frozenset(C11CodePrinter.reserved_words) | {"inline", "restrict", "bool", "true", "false", "at"}
 
@@ -32,7 +32,7 @@ def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str, coupli
     """variables.h and model.c of ``model``, with the all-zero placeholder where the content hash will stand."""
     names = _identifiers(model.value_references)
     header = _header(model, identifier, names, n_couplings=0 if coupling is None else 1)
-    text = _model(model, jacobian, _Printer(names))
+    text = _model(model, jacobian, _Printer(names, steady(model)))
     return CSources({"variables.h": header, "model.c": text + _coupling(coupling, model)})
 
 
@@ -50,11 +50,15 @@ def _identifiers(names: Iterable[str]) -> dict[str, str]:
 
 
 class _Printer(C11CodePrinter):  # type: ignore[misc]
-    """C expressions over ``v->name``; doubles with the digits that give them back exactly."""
+    """C expressions over ``v->name``; doubles with the digits that give them back exactly.
 
-    def __init__(self, names: dict[str, str]) -> None:
+    ``steady`` are names of variables that do not change while the states do.
+    """
+
+    def __init__(self, names: dict[str, str], steady: frozenset[str] = frozenset()) -> None:
         super().__init__()
         self.names = names
+        self.steady = steady
 
     def _print_Symbol(self, expr: sympy.Symbol) -> str:
         if expr.name in self.names:
@@ -69,6 +73,14 @@ class _Printer(C11CodePrinter):  # type: ignore[misc]
 
     def _print_Rational(self, expr: sympy.Rational) -> str:
         return f"{expr.p}.0/{expr.q}.0"
+
+    def _print_Mul(self, expr: sympy.Mul) -> str:
+        """A quotient of what is known early comes first: no other operation has to wait for that division."""
+        moving = [s for s in expr.free_symbols if s.name not in self.steady]
+        known, rest = expr.as_independent(*moving, as_Add=False)
+        if rest == 1 or known.is_number or sympy.denom(known).is_number:
+            return str(super()._print_Mul(expr))
+        return f"({self._print(known)})*{self.parenthesize(rest, sympy.printing.precedence.PRECEDENCE['Mul'])}"
 
     def _print_Pow(self, expr: sympy.Pow) -> str:
         base, exponent = expr.as_base_exp()
@@ -237,12 +249,7 @@ def _lines(assignments: Iterable[Assignment], printer: _Printer) -> list[str]:
 
 
 def _jacobian(model: SortedModel, jacobian: JacobianModel, printer: _Printer) -> str:
-    arguments = set().union(*(a.expression.free_symbols for a in jacobian.assignments)) | set().union(
-        *(value.free_symbols for value in (*jacobian.entries.values(), *jacobian.time_entries.values()))
-    )
-    needed = needed_for((s.name for s in arguments), model)
-    lines = _lines(needed, printer)
-    lines += [
+    lines = [
         f"const double {local_name(a.target)} = {printer.text(a.expression)}; /* {a.origin} */"
         for a in jacobian.assignments
     ]
@@ -251,7 +258,7 @@ def _jacobian(model: SortedModel, jacobian: JacobianModel, printer: _Printer) ->
         comment = f"{model.derivatives[row]} by {model.states[column]}"
         lines.append(f"jacobian[{index}] = {printer.text(value)}; /* {comment} */")
     lines += [f"time_derivative[{row}] = {printer.text(value)};" for row, value in jacobian.time_entries.items()]
-    signature = "model_jacobian(Variables *v, const bool holds[], double jacobian[], double time_derivative[])"
+    signature = "model_jacobian(const Variables *v, const bool holds[], double jacobian[], double time_derivative[])"
     return _function(signature, [line for line in lines if line])
 
 

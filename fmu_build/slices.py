@@ -36,6 +36,13 @@ def tunable_parameters(model: SortedModel) -> frozenset[str]:
     return effective | calculated
 
 
+def steady(model: SortedModel) -> frozenset[str]:
+    """What follows from parameters and inputs alone: it does not change while the states do."""
+    sources = dependencies(model)
+    moving = {*model.states, "time"}
+    return frozenset((*model.parameters, *model.inputs)) | {name for name in sources if not sources[name] & moving}
+
+
 def start_value(name: str, model: SortedModel) -> float:
     """The start value of a state, parameter or input as a number; 0 where it is calculated or not given."""
     if name in model.start_values:

@@ -102,7 +102,7 @@ void model_factorize(const double *restrict jacobian, double shift, double *rest
 void model_solve(const double *restrict factors, const double *restrict b, double *restrict x);
 #endif
 
-/* Every function reads and writes v only; each computes all intermediate variables that it needs by itself. */
+/* Every function reads and writes v only; unless it says otherwise, each computes all intermediate variables that it needs. */
 
 /* Calculated parameters, from parameters. */
 void model_parameters(Variables *v);
@@ -117,8 +117,9 @@ void model_derivatives(Variables *v, const bool holds[]);
 void model_outputs(Variables *v, const bool holds[]);
 
 /* jacobian[e] = d derivative[jacobian_row[e]] / d state[jacobian_column[e]], time_derivative[i] = d derivative[i] / d
- * time, partial; exact between events. Entries of the Jacobian that are always zero have no e. */
-void model_jacobian(Variables *v, const bool holds[], double jacobian[], double time_derivative[]);
+ * time, partial; exact between events. Entries of the Jacobian that are always zero have no e. v must be as model_derivatives
+ * has left it. */
+void model_jacobian(const Variables *v, const bool holds[], double jacobian[], double time_derivative[]);
 
 /* Residuals of the relations. */
 void model_relations(Variables *v, const bool holds[], double z[]);

@@ -90,6 +90,7 @@ class CompiledModel:
         count = len(self.model.states)
         jacobian, time_derivative = np.zeros((count, count)), np.full(count, np.nan)
         entries = np.full(len(self._entries), np.nan)
+        self.derivatives()
         self._call("model_jacobian", self.relations() > 0, entries, time_derivative)
         for place, value in zip(self._entries, entries, strict=True):
             jacobian[place] = value

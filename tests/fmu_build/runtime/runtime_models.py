@@ -129,7 +129,7 @@ void model_outputs(Variables *v, const bool holds[]) {{
     model_relations(v, holds, z);
     {self.outputs}
 }}
-void model_jacobian(Variables *v, const bool holds[], double jacobian[], double time_derivative[]) {{
+void model_jacobian(const Variables *v, const bool holds[], double jacobian[], double time_derivative[]) {{
     (void)v;
     (void)holds;
     (void)jacobian;
