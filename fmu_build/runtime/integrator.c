@@ -111,7 +111,8 @@ static void learn(Integrator *m, double length, double error, bool rejected)
         m->error_constant = 0.0;
         return;
     }
-    const double constant = error / pow(length, ERROR_ORDER);
+    const double square = length * length;
+    const double constant = error / (square * square * length);
     double best = elementary(length, error);
     if (m->error_constant > 0.0 && constant > m->error_constant && error > TELLING_ERROR) {
         best *= fmax(0.5, pow(m->error_constant / constant, 1.0 / ERROR_ORDER));
