@@ -32,6 +32,9 @@ enum {{ N_JACOBIAN = {len(elimination.jacobian)}, N_FACTORS = {len(elimination.p
         text += _body(_factorize(elimination, rows))
         text += "\nvoid model_solve(const double *restrict factors, const double *restrict b, double *restrict x)\n"
         text += _body(_solve(elimination, rows))
+        text += "\nvoid model_subtract_product(const double *restrict jacobian, double shift, const double *restrict x,\n"
+        text += "                            double *restrict b)\n"
+        text += _body(_subtract_product(elimination))
     return CSources({"elimination.h": header, "elimination.c": text})
 
 
@@ -86,7 +89,8 @@ def _factorize(elimination: Elimination, rows: _Rows) -> list[str]:
         lines.append(f"factors[{pivot}] = 1.0 / factors[{pivot}];")
         lines += [f"factors[{p}] *= factors[{rows.pivot[pattern[p][1]]}];" for p in rows.lower[i]]
         lines += [f"factors[{p}] *= factors[{pivot}];" for p in rows.upper[i]]
-    return lines or ["(void)jacobian;", "(void)shift;", "(void)factors;"]
+    unused = [] if elimination.jacobian else ["(void)jacobian;"]
+    return [*unused, *(lines or ["(void)shift;", "(void)factors;"])]
 
 
 def _solve(elimination: Elimination, rows: _Rows) -> list[str]:
@@ -101,3 +105,10 @@ def _solve(elimination: Elimination, rows: _Rows) -> list[str]:
         lines.append(f"const double x{i} = y{i} * factors[{rows.pivot[i]}]{terms};")
     lines += [f"x[{state}] = x{i};" for i, state in enumerate(order)]
     return lines or ["(void)factors;", "(void)b;", "(void)x;"]
+
+
+def _subtract_product(elimination: Elimination) -> list[str]:
+    """What subtract_product() in runtime/lu.c does, in the same order."""
+    lines = [f"b[{i}] -= shift * x[{i}];" for i in range(len(elimination.order))]
+    lines += [f"b[{i}] += jacobian[{e}] * x[{j}];" for e, (i, j) in enumerate(elimination.jacobian)]
+    return [*([] if elimination.jacobian else ["(void)jacobian;"]), *(lines or ["(void)shift;", "(void)x;", "(void)b;"])]

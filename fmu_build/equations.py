@@ -41,7 +41,8 @@ def derive(model: FlatModel) -> EquationSystem:
         if v.variability == "continuous" and v.name not in aliases and v.causality != "input"
     ]
     states, reduced, starts = _choose_states(reduced, algebraics, variables)
-    derivatives = [name for name in (der(n) for n in algebraics) if symbol(name) in _symbols(reduced)]
+    occurring = _symbols(reduced)
+    derivatives = [name for name in (der(n) for n in algebraics) if symbol(name) in occurring]
     unknowns = (*derivatives, *(n for n in algebraics if n not in states))
     return EquationSystem(
         model=model,
@@ -142,7 +143,8 @@ def _choose_states(
 ) -> tuple[tuple[str, ...], list[Equation], dict[str, sympy.Expr]]:
     """The states, the equations with those that are added, and the start values of the states."""
     names = {symbol(n): n for n in algebraics}
-    states = [n for n in algebraics if symbol(der(n)) in _symbols(equations)]
+    occurring = _symbols(equations)
+    states = [n for n in algebraics if symbol(der(n)) in occurring]
     starts = {n: start for n in states if (start := variables[n].start) is not None}
     fixed = {n for n in states if variables[n].fixed}
     derivatives = {symbol(der(n)) for n in algebraics}

@@ -15,7 +15,7 @@ from .slices import needed_for, reaching
 
 def differentiate(model: SortedModel) -> JacobianModel:
     """The derivatives of ``model.derivatives`` by each state and by time, between events."""
-    seeds = (*model.states, TIME)
+    seeds = {name: number for number, name in enumerate((*model.states, TIME))}
     gradients: dict[str, dict[str, sympy.Expr]] = {seed: {seed: sympy.Integer(1)} for seed in seeds}
     locals_: list[Assignment] = []
     for assignment in needed_for(model.derivatives, model):
@@ -53,13 +53,14 @@ def _partials(assignments: tuple[Assignment, ...]) -> tuple[Partials, ...]:
 def _gradient(
     assignment: Assignment,
     gradients: dict[str, dict[str, sympy.Expr]],
-    seeds: tuple[str, ...],
+    seeds: dict[str, int],
     locals_: list[Assignment],
 ) -> dict[str, sympy.Expr]:
     arguments = sorted((s for s in assignment.expression.free_symbols if s.name in gradients), key=str)
     partials = {s.name: assignment.expression.diff(s) for s in arguments}
     result: dict[str, sympy.Expr] = {}
-    for seed in seeds:
+    reached = set().union(*(gradients[n] for n in partials))
+    for seed in sorted(reached, key=seeds.__getitem__):
         value = sum((p * gradients[n][seed] for n, p in partials.items() if seed in gradients[n]), sympy.Integer(0))
         if value == 0:
             continue

@@ -1,6 +1,7 @@
 #include "lu.h"
 
 #include <math.h>
+#include <string.h>
 
 #if ELIMINATION_WRITTEN_OUT
 
@@ -10,6 +11,11 @@ static void factorize(const double jacobian[], double shift, double factors[])
 }
 
 void lu_solve(const double factors[], const double b[], double x[]) { model_solve(factors, b, x); }
+
+static void subtract_product(const double jacobian[], double shift, const double x[], double b[])
+{
+    model_subtract_product(jacobian, shift, x, b);
+}
 
 #else
 
@@ -29,7 +35,7 @@ static void fill_in(const double jacobian[], double shift, double factors[])
 /* Row by row; each in turn is spread out, so that its places are found by their column. */
 static void factorize(const double jacobian[], double shift, double factors[])
 {
-    double row[N_STATES];
+    double row[N_STATES] = {0.0};
     fill_in(jacobian, shift, factors);
     for (int i = 0; i < N_STATES; i++) {
         const int pivot = pivot_factor[i];
@@ -54,7 +60,7 @@ static void factorize(const double jacobian[], double shift, double factors[])
 
 void lu_solve(const double factors[], const double b[], double x[])
 {
-    double y[N_STATES];
+    double y[N_STATES] = {0.0};
     for (int i = 0; i < N_STATES; i++) {
         double sum = b[pivot_state[i]];
         for (int p = first_factor[i]; p < pivot_factor[i]; p++) {
@@ -71,6 +77,17 @@ void lu_solve(const double factors[], const double b[], double x[])
     }
 }
 
+/* b -= (shift I - J) x */
+static void subtract_product(const double jacobian[], double shift, const double x[], double b[])
+{
+    for (int i = 0; i < N_STATES; i++) {
+        b[i] -= shift * x[i];
+    }
+    for (int e = 0; e < N_JACOBIAN; e++) {
+        b[jacobian_row[e]] += jacobian[e] * x[jacobian_column[e]];
+    }
+}
+
 #endif
 
 bool lu_factorize(const double jacobian[], double shift, double factors[])
@@ -83,4 +100,13 @@ bool lu_factorize(const double jacobian[], double shift, double factors[])
         }
     }
     return true;
+}
+
+void lu_error(const double jacobian[], double shift, const double factors[], const double b[], const double x[],
+              double error[])
+{
+    double residual[AT_LEAST_ONE(N_STATES)];
+    memcpy(residual, b, N_STATES * sizeof(double));
+    subtract_product(jacobian, shift, x, residual);
+    lu_solve(factors, residual, error);
 }

@@ -1,9 +1,8 @@
 /* The matrix s I - J of the model's Jacobian J as a product L D U of sparse triangular matrices.
  *
  * Pivots come from the diagonal, in the order that the generator has chosen: where the factors are not zero is known
- * when the model is built. Nothing is exchanged for the sake of size. For short steps (large s) nothing has to be, as
- * the diagonal prevails; for longer ones the error estimate of a step, in which eight solutions have to fit together,
- * shows that digits have been lost. */
+ * when the model is built. Nothing is exchanged for the sake of size. Where s is large nothing has to be, as the
+ * diagonal prevails; otherwise factors may grow, and digits be lost. lu_error tells how many. */
 #ifndef LU_H
 #define LU_H
 
@@ -17,5 +16,9 @@ bool lu_factorize(const double jacobian[], double shift, double factors[]);
 
 /* (shift I - J) x = b; x and b do not overlap. */
 void lu_solve(const double factors[], const double b[], double x[]);
+
+/* The error of a solution x, to its leading digits: the solution for its residual. */
+void lu_error(const double jacobian[], double shift, const double factors[], const double b[], const double x[],
+              double error[]);
 
 #endif

@@ -100,9 +100,12 @@ extern const int factor_column[AT_LEAST_ONE(N_FACTORS)];
 #if ELIMINATION_WRITTEN_OUT
 void model_factorize(const double *restrict jacobian, double shift, double *restrict factors);
 void model_solve(const double *restrict factors, const double *restrict b, double *restrict x);
+void model_subtract_product(const double *restrict jacobian, double shift, const double *restrict x,
+                            double *restrict b); /* b -= (shift I - J) x */
 #endif
 
-/* Every function reads and writes v only; unless it says otherwise, each computes all intermediate variables that it needs. */
+/* Every function reads and writes v only; unless it says otherwise, each computes all intermediate variables that it
+ * needs. */
 
 /* Calculated parameters, from parameters. */
 void model_parameters(Variables *v);
@@ -117,8 +120,8 @@ void model_derivatives(Variables *v, const bool holds[]);
 void model_outputs(Variables *v, const bool holds[]);
 
 /* jacobian[e] = d derivative[jacobian_row[e]] / d state[jacobian_column[e]], time_derivative[i] = d derivative[i] / d
- * time, partial; exact between events. Entries of the Jacobian that are always zero have no e. v must be as model_derivatives
- * has left it. */
+ * time, partial; exact between events. Entries of the Jacobian that are always zero have no e. v must be as
+ * model_derivatives has left it. */
 void model_jacobian(const Variables *v, const bool holds[], double jacobian[], double time_derivative[]);
 
 /* Residuals of the relations. */

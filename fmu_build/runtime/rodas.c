@@ -104,8 +104,10 @@ int rodas_try(Rodas *r, double length, Variables *v, const bool holds[])
 {
     Vector f;
     Vector right;
+    Vector lost; /* by the solution of the first system */
+    const double shift = 1.0 / (RODAS_GAMMA * length);
     r->length = length;
-    if (!lu_factorize(r->jacobian, 1.0 / (RODAS_GAMMA * length), r->factors)) {
+    if (!lu_factorize(r->jacobian, shift, r->factors)) {
         return 0;
     }
     const double per_length = 1.0 / length;
@@ -120,10 +122,13 @@ int rodas_try(Rodas *r, double length, Variables *v, const bool holds[])
             right[i] = f[i] + right[i] * per_length + weight * r->time_derivative[i];
         }
         lu_solve(r->factors, right, r->u[stage]);
+        if (stage == 0) {
+            lu_error(r->jacobian, shift, r->factors, right, r->u[0], lost);
+        }
     }
     for (int i = 0; i < N_STATES; i++) { /* v still holds the argument of the last stage, the embedded solution */
-        r->error[i] = r->u[RODAS_STAGES - 1][i];
-        r->end[i] = v->at[FIRST_STATE + i] + r->error[i];
+        r->end[i] = v->at[FIRST_STATE + i] + r->u[RODAS_STAGES - 1][i];
+        r->error[i] = fabs(r->u[RODAS_STAGES - 1][i]) + fabs(RODAS_A[RODAS_STAGES - 1][0] * lost[i]);
     }
     return first_not_finite(r->end, N_STATES);
 }

@@ -21,7 +21,7 @@ typedef struct {
     double length;
     double factors[AT_LEAST_ONE(N_FACTORS)]; /* of I / (gamma length) - J */
     Vector end;                              /* state at time + length */
-    Vector error;                            /* its estimated error */
+    Vector error;                            /* estimated: of the method, and of the linear algebra */
     Vector u[RODAS_STAGES];
     Vector bend[RODAS_DENSE]; /* after rodas_bend */
 } Rodas;

@@ -67,6 +67,6 @@ void probe_fixed_steps(double start, double end, int steps, double x[], double f
     rodas_dense(&r, fraction, dense);
     memcpy(x, r.end, N_STATES * sizeof(double));
     for (int i = 0; i < N_STATES; i++) {
-        embedded[i] = r.end[i] - r.error[i];
+        embedded[i] = r.end[i] - r.u[RODAS_STAGES - 1][i];
     }
 }
