@@ -32,7 +32,9 @@ enum {{ N_JACOBIAN = {len(elimination.jacobian)}, N_FACTORS = {len(elimination.p
         text += _body(_factorize(elimination, rows))
         text += "\nvoid model_solve(const double *restrict factors, const double *restrict b, double *restrict x)\n"
         text += _body(_solve(elimination, rows))
-        text += "\nvoid model_subtract_product(const double *restrict jacobian, double shift, const double *restrict x,\n"
+        text += (
+            "\nvoid model_subtract_product(const double *restrict jacobian, double shift, const double *restrict x,\n"
+        )
         text += "                            double *restrict b)\n"
         text += _body(_subtract_product(elimination))
     return CSources({"elimination.h": header, "elimination.c": text})
@@ -111,4 +113,7 @@ def _subtract_product(elimination: Elimination) -> list[str]:
     """What subtract_product() in runtime/lu.c does, in the same order."""
     lines = [f"b[{i}] -= shift * x[{i}];" for i in range(len(elimination.order))]
     lines += [f"b[{i}] += jacobian[{e}] * x[{j}];" for e, (i, j) in enumerate(elimination.jacobian)]
-    return [*([] if elimination.jacobian else ["(void)jacobian;"]), *(lines or ["(void)shift;", "(void)x;", "(void)b;"])]
+    return [
+        *([] if elimination.jacobian else ["(void)jacobian;"]),
+        *(lines or ["(void)shift;", "(void)x;", "(void)b;"]),
+    ]

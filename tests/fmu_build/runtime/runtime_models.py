@@ -320,6 +320,37 @@ PROTHERO_ROBINSON = Model(
     parameters=(Variable("rate", 1e6),),
 )
 
+GROWING = Model(
+    "Growing",
+    (Variable("x", 1.0),),
+    "v->der_x = v->rate * v->x;",
+    {(0, 0): "v->rate"},
+    parameters=(Variable("rate", 1.0),),
+)
+
+
+def _stiffly_tied() -> Model:
+    """a + b is tied to zero by an oscillation of the angular frequency w sqrt(2) with p, the first to be eliminated: its
+    small pivot makes factors so large that the other rates drown in their rounding."""
+    names = ("p", "a", "b", "c", "d")
+    rows = ["v->w*(-v->a - v->b)"]
+    entries = {(0, 1): "-v->w", (0, 2): "-v->w", (1, 0): "v->w", (2, 0): "v->w"}
+    for i, rates in enumerate(TIED_RATES, start=1):
+        entries |= {(i, j): repr(rate) for j, rate in enumerate(rates, start=1)}
+        tie = "v->w*v->p" if i < 3 else "0.0"
+        rows.append(" + ".join([tie, *(f"{rate} * v->{name}" for rate, name in zip(rates, names[1:], strict=True))]))
+    return Model(
+        "StifflyTied",
+        tuple(Variable(name) for name in names),
+        "\n".join(f"v->der_{name} = {row};" for name, row in zip(names, rows, strict=True)),
+        entries,
+        parameters=(Variable("w", 1e8),),
+    )
+
+
+TIED_RATES = ((-1.0, 0.5, 0.3, -0.7), (-0.4, -1.2, 0.6, 0.2), (0.8, -0.3, -0.9, 0.4), (0.1, 0.7, -0.6, -1.1))
+STIFFLY_TIED = _stiffly_tied()
+
 # A mass between two springs with a gap: m = 1, stiffness p above the gap, q below zero.
 OSCILLATOR = Model(
     "Oscillator",
