@@ -14,8 +14,8 @@ def eliminate(entries: Iterable[tuple[int, int]], count: int) -> Elimination:
     """Order ``count`` pivots so that little fills in, and follow what does.
 
     ``entries`` are (row, column) of the Jacobian's entries. The next pivot has the least product of the numbers of
-    other entries in its row and in its column (H. M. Markowitz, The elimination form of the inverse and its application to
-    linear programming, Management Science 3 (1957) 255-269). Of several it is the one that waits for the shortest
+    other entries in its row and in its column (H. M. Markowitz, The elimination form of the inverse and its application
+    to linear programming, Management Science 3 (1957) 255-269). Of several it is the one that waits for the shortest
     chain of earlier ones, so that a processor can work on several at once; then the first.
     """
     jacobian = tuple(entries)

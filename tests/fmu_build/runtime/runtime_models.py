@@ -330,8 +330,10 @@ GROWING = Model(
 
 
 def _stiffly_tied() -> Model:
-    """a + b is tied to zero by an oscillation of the angular frequency w sqrt(2) with p, the first to be eliminated: its
-    small pivot makes factors so large that the other rates drown in their rounding."""
+    """a + b is tied to zero by an oscillation of the angular frequency w sqrt(2) with p, the first to be eliminated.
+
+    Its small pivot makes factors so large that the other rates drown in their rounding.
+    """
     names = ("p", "a", "b", "c", "d")
     rows = ["v->w*(-v->a - v->b)"]
     entries = {(0, 1): "-v->w", (0, 2): "-v->w", (1, 0): "v->w", (2, 0): "v->w"}
