@@ -143,8 +143,8 @@ def _choose_states(
 ) -> tuple[tuple[str, ...], list[Equation], dict[str, sympy.Expr]]:
     """The states, the equations with those that are added, and the start values of the states."""
     names = {symbol(n): n for n in algebraics}
-    symbols = _symbols(equations)
-    states = [n for n in algebraics if symbol(der(n)) in symbols]
+    present = _symbols(equations)
+    states = [n for n in algebraics if symbol(der(n)) in present]
     starts = {n: start for n in states if (start := variables[n].start) is not None}
     fixed = {n for n in states if variables[n].fixed}
     derivatives = {symbol(der(n)) for n in algebraics}
