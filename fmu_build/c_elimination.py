@@ -7,8 +7,8 @@ from collections.abc import Iterable
 
 from .ir import CSources, Elimination
 
-# Up to this many factors are handled by a line of C each: for ten states that takes a third of the time of loops over
-# tables. More would be more code than a processor keeps at hand.
+# Up to this many factors are handled by a line of C for each operation: for ten states a factorization takes a tenth,
+# and a solution a third, of the time of loops over tables. More would be more code than a processor keeps at hand.
 MOST_WRITTEN_OUT = 256
 
 

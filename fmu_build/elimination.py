@@ -1,6 +1,7 @@
 """The order in which the integrator's matrix I/(gamma h) - J is eliminated, and where its factors are not zero.
 
-Every pivot is taken from the diagonal, so that the pattern of the factors is known when the model is built.
+Every pivot is taken from the diagonal, so that the pattern of the factors is known when the model is built. (SciPy's
+minimum degree orders the pattern of A + A', and few Jacobians are symmetric.)
 """
 
 from __future__ import annotations
