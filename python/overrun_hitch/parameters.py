@@ -114,14 +114,14 @@ class Parameters(Quantities):
 
     @property
     def gives_from(self) -> float:
-        """The compression (m) from which the spring gives and the trailer is braked: clearance, and F_0 on the frame."""
+        """Compression (m) from which the spring gives and the trailer is braked: clearance, and F_0 on the frame."""
         if self.F_0 == 0.0:
             return self.eps
         return self.eps + self.F_0 / self.k_t if self.k_t > 0.0 else math.inf
 
     @property
     def linear_until(self) -> float:
-        """The compression (m) up to which, from `gives_from` on, the stiffness is k."""
+        """Compression (m) up to which, from `gives_from` on, the stiffness is k."""
         return max(self.gives_from, min(self.eps + min(self.x_2, self.x_3), self.travel))
 
     def changed(self, changes: Mapping[str, Any]) -> Parameters:

@@ -23,7 +23,8 @@ def steady(parameters: Parameters, brake_torque: float) -> Steady:
         A (M_t + I_t/R_t^2) = -(F_0 + k d) - d r/R_t
         A (M_c + I_c/R_c^2) =   F_0 + k d  - brake_torque/R_c        d = D - eps - F_0/k_t
 
-    A push within F_0 leaves the trailer unbraked, and D = eps + push/k_t. brake_torque in N.m. HitchError where nothing holds or brakes the trailer (k = r = 0).
+    A push within F_0 leaves the trailer unbraked, and D = eps + push/k_t. brake_torque in N.m. HitchError where nothing
+    holds or brakes the trailer (k = r = 0).
     """
     p = parameters
     if p.k + p.r <= 0.0:

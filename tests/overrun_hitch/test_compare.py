@@ -120,9 +120,7 @@ def test_a_threshold_that_the_push_exceeds_all_the_time_is_judged(car_trailer_fm
         ({"travel": 0.02}, "drawbar's stiffness changes, at 0.02 m, at t = 0.14 s"),
     ],
 )
-def test_no_verdict_on_what_theory_does_not_know(
-    car_trailer_fmu: Path, changes: dict[str, float], reason: str
-) -> None:
+def test_no_verdict_on_what_theory_does_not_know(car_trailer_fmu: Path, changes: dict[str, float], reason: str) -> None:
     rows = simulated(car_trailer_fmu, scenario(**changes))
     assert {row.not_judged for row in rows.values()} == {reason}
     assert all(math.isfinite(row.expected) and math.isfinite(row.found) for row in rows.values())

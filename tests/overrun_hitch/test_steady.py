@@ -52,11 +52,11 @@ def test_a_threshold_is_pushed_and_braked_beyond(F_0: float) -> None:
     assert s.A_c < s.A < 0.0 and s.ratio == pytest.approx(s.A / s.A_c)
     gentle = steady(p, 0.1 * torque)
     if F_0 == 500.0:
-        assert gentle.A == pytest.approx(-0.1 * torque / p.R_c / (car + trailer), rel=1e-14)
+        assert pytest.approx(-0.1 * torque / p.R_c / (car + trailer), rel=1e-14) == gentle.A
         assert pytest.approx(p.eps - trailer * gentle.A / p.k_t, rel=1e-12) == gentle.D
     edge = torque * F_0 / (trailer * car / (car + trailer)) / (torque / p.R_c / car)  # where the threshold is reached
     below, above = steady(p, edge * (1.0 - 1e-12)), steady(p, edge * (1.0 + 1e-12))
-    assert above.A == pytest.approx(below.A, rel=1e-9) and above.D == pytest.approx(below.D, rel=1e-9)
+    assert pytest.approx(below.A, rel=1e-9) == above.A and pytest.approx(below.D, rel=1e-9) == above.D
 
 
 @pytest.mark.parametrize("figure", ["8", "10"])

@@ -54,8 +54,20 @@ equation
     Documentation(info="<html>
 <p>The three regimes of the paper's section 6: beyond the clearance <code>eps</code> the spring <code>k</code> resists
 compression, within the clearance there is no spring force, in tension the drawbar has the stiffness <code>k_t</code>.
-The damper acts in all three. The force is continuous in the compression; its slope jumps at 0 and at
-<code>eps</code>.</p>
+The damper acts in all three.</p>
+<p>As sold, such devices have more, all of it out of reach by default. The force is one function of the compression,
+continuous and linear in pieces; each kink is an event.</p>
+<ul>
+<li>Threshold <code>F_0</code>: the spring is clamped with it. Up to that push only the frame gives, by <code>k_t</code> from
+<code>eps</code> on; from <code>s_1 = eps + F_0/k_t</code> on the spring does. (A force that jumps to <code>F_0</code> would hold
+the drawbar on the jump, where a simulation chatters.)</li>
+<li>Further stiffnesses <code>k_2</code> from <code>eps + x_2</code> on and <code>k_3</code> from <code>eps + x_3</code> on, in this
+order.</li>
+<li>End of travel: from <code>travel</code> on, whatever stands above, the stiffness is <code>k_buffer</code>.</li>
+<li><code>rebound</code>: the damper's coefficient while the compression decreases, over <code>C</code>. The damper's force
+is continuous; where the coefficients differ, a change of direction is an event: without, the error was 100 times as
+large or more at the same tolerance, for 5 % less time.</li>
+</ul>
 <p>The compression is preferred as a state to the position of one of the vehicles: positions grow without limit, and a
 relative tolerance on them says little about their difference.</p>
 <p>An always acting damper pulls while the drawbar springs back fast from compression; the paper's does. The limit

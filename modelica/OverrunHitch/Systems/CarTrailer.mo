@@ -79,7 +79,10 @@ those of its case ii (section 8.1); <code>k_t = 100 k</code> that of figures 6a 
 <code>compression_start</code> count at the start, the others may be changed during a run.
 <code>mu</code> is about 1 on dry asphalt, 0.3 on packed snow; its default is beyond any tyre. With
 <code>F_pull_max = 0</code> the damper never makes a compressed drawbar pull, nor one at its stop push; the default is
-beyond any damper's force.</p>
+beyond any damper's force. Devices as sold have a threshold <code>F_0</code> (2 to 4 % of the trailer's weight), a damper
+that is stronger in <code>rebound</code>, a <code>travel</code> of 0.085 to 0.1 m with a buffer behind it, and springs whose
+stiffness grows (<code>x_2</code>, <code>k_2</code>, <code>x_3</code>, <code>k_3</code>); by default all these are out of
+reach, as in the paper.</p>
 <h2>Limits</h2>
 <p>No drag, no rolling resistance, no reversing lock-out. From 0.5 m/s on the tyre force follows the slip without lag. With
 the default <code>mu</code> nothing limits it: hard braking and slips beyond about 0.1 need a true one.</p>

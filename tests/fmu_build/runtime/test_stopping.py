@@ -52,8 +52,8 @@ def stop(library: Library, **values: float) -> tuple[np.ndarray, list[Counters]]
 def check_stop(library: Library, rest_within: float, rate: float = 12.0, dying: float = 0.0, **values: float) -> None:
     """Rest is reached `rest_within` so many s of standstill, and kept.
 
-    At most `rate` events a second happen before, and `dying` of them afterwards: a damper whose coefficient changes with
-    the direction does so as long as the drawbar swings at all.
+    At most `rate` events a second happen before, and `dying` of them afterwards: a damper whose coefficient changes
+    with the direction does so as long as the drawbar swings at all.
     """
     rows, counters = stop(library, **values)
     assert np.isfinite(rows).all()
