@@ -1,7 +1,8 @@
 """Theory against simulation, for a step brake: each quantity from both sides, what may differ, and a verdict.
 
 Theory is linear.py and steady.py, simulation is the traces alone. Linear theory speaks of a drawbar that is in
-compression all the time, so a run whose drawbar starts out of it (a clearance) or leaves it is reported, not judged.
+compression all the time, so a run whose drawbar starts out of it (a clearance, a threshold) or leaves it is reported,
+not judged. Nor is a run with what theory does not know: a second stiffness reached, or a parameter of BEYOND_THEORY.
 
 What may differ, and why:
 
@@ -25,7 +26,7 @@ from overrun_hitch.events import compressed_from
 from overrun_hitch.judged import Judged
 from overrun_hitch.linear import ShuntingMode, shunting_mode, wheel_decay_rate
 from overrun_hitch.oscillation import NoOscillation, Oscillation, measure
-from overrun_hitch.parameters import HitchError, Parameters
+from overrun_hitch.parameters import DATUM, HitchError, Parameters
 from overrun_hitch.results import scenario_of, values
 from overrun_hitch.steady import steady
 
@@ -35,6 +36,8 @@ GROWTH_RATE_ALLOWED = (0.005, 0.01)  # 1/s, and relative
 FREQUENCY_ALLOWED = 0.002  # relative
 STEADY_ALLOWED = 1e-4  # relative, beside slip
 RATIO_ALLOWED = 0.0005
+
+BEYOND_THEORY = ("F_pull_max", "rebound", "mu")  # judged at their neutral values alone
 
 WHEELS_SETTLED = math.log(1e6)  # the wheels' transient starts at the size of the motion itself
 DECAYED = math.log(100.0)  # 40 dB down the rest weighs nothing in the fit, and soon is the integrator's noise
@@ -53,7 +56,7 @@ class _Run:
     slip: float  # the largest
     mode: ShuntingMode | None  # along v_car; None: there is none (k = r = 0)
     stays: bool  # in compression from here on
-    out_of_compression: str  # "" or a sentence about when the drawbar is not in compression
+    not_linear: str  # "" or a sentence about why linear theory does not hold
 
     @property
     def window(self) -> slice:
@@ -80,9 +83,9 @@ def compare(run: xr.Dataset, alone: xr.Dataset) -> list[Judged]:
 
 
 def shunting(run: xr.Dataset) -> tuple[Oscillation | NoOscillation, str]:
-    """The shunting oscillation as `compare` measures it, and "" or when the drawbar leaves compression meanwhile."""
+    """The shunting oscillation as `compare` measures it, and "" or why linear theory does not hold meanwhile."""
     part = _settled_part(run)
-    return _oscillation(part), "" if part.stays else part.out_of_compression
+    return _oscillation(part), "" if part.stays else part.not_linear
 
 
 def _oscillation(part: _Run) -> Oscillation | NoOscillation:
@@ -92,7 +95,8 @@ def _oscillation(part: _Run) -> Oscillation | NoOscillation:
 def _settled_part(run: xr.Dataset) -> _Run:
     p = scenario_of(run).parameters
     time, compression = values(run, "time"), values(run, "compression")
-    entry, stays, sentence = compressed_from(time, compression, values(run, "v_trailer") - values(run, "v_car"), p.eps)
+    rate = values(run, "v_trailer") - values(run, "v_car")
+    entry, stays, sentence = compressed_from(time, compression, rate, p.gives_from, p.linear_until)
     try:
         start = max(entry, WHEELS_SETTLED / max(wheel_decay_rate(p, p.V_0), 1e-9))
         mode_exists = True
@@ -109,13 +113,19 @@ def _settled_part(run: xr.Dataset) -> _Run:
         slip=float(np.abs([values(run, "slip_car")[after], values(run, "slip_trailer")[after]]).max()),
         mode=shunting_mode(p, v_car) if mode_exists else None,
         stays=stays,
-        out_of_compression=sentence,
+        not_linear=_beyond_theory(p) or sentence,
     )
+
+
+def _beyond_theory(p: Parameters) -> str:
+    """The first parameter that is not neutral and that theory does not know; "" if there is none."""
+    changed = [name for name in BEYOND_THEORY if getattr(p, name) != getattr(DATUM, name)]
+    return f"{changed[0]} = {getattr(p, changed[0]):g} is beyond linear theory" if changed else ""
 
 
 def _mode_rows(part: _Run, window: slice, found: Oscillation | NoOscillation) -> list[Judged]:
     growth = frequency = math.nan
-    reason = part.out_of_compression
+    reason = part.not_linear
     if part.mode is None:
         reason = reason or "k = r = 0 leave no shunting mode"
     else:
@@ -157,7 +167,7 @@ def _steady_rows(part: _Run, found: Oscillation | NoOscillation, run: xr.Dataset
 
 def _steady_values(part: _Run, found: Oscillation | NoOscillation) -> tuple[float, float, str]:
     """A (m/s2), D (m) and why they are not to be judged: from the settled end of the run, else from the fit."""
-    reason = part.out_of_compression
+    reason = part.not_linear
     settled = part.decay(SETTLED)
     if part.stays and settled < len(part.time) - 1:
         tail = slice(settled, None)
