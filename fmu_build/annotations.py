@@ -9,10 +9,14 @@ from .ir import Experiment
 
 
 def class_text(class_name: str, texts: Iterable[str]) -> str:
-    """The text of the class from its keyword to its end; "" if none of ``texts`` has it."""
-    name = re.escape(class_name.rpartition(".")[2])
+    """The text of the class from its keyword to its end; "" if none of ``texts`` has it.
+
+    Of classes with the same name the one in a file ``within`` the right package is taken.
+    """
+    package, _, short = class_name.rpartition(".")
+    name, within = re.escape(short), re.compile(rf"\s*within\s+{re.escape(package)}\s*;")
     pattern = re.compile(rf"\b(?:model|block|class)\s+{name}\b.*?\bend\s+{name}\s*;", re.DOTALL)
-    found = (pattern.search(text) for text in texts)
+    found = (pattern.search(text) for text in sorted(texts, key=lambda text: not within.match(text)))
     return next((match.group(0) for match in found if match), "")
 
 
