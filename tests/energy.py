@@ -15,7 +15,17 @@ from tests.unit import Unit
 Floats = NDArray[np.float64]
 
 VEHICLES = ("car", "trailer")
-PARTS = ("body.x", "body.v", "body.a", "wheel.omega", "wheel.tau", "tyre.F", "tyre.v_slip")
+PARTS = (
+    "body.x",
+    "body.v",
+    "body.a",
+    "wheel.omega",
+    "wheel.tau",
+    "wheel.tau_r",
+    "body.F_drag",
+    "tyre.F",
+    "tyre.v_slip",
+)
 DRAWBAR = ("compression", "v_rel", "F_h", "F_spring")
 NAMES = tuple(f"{v}.{p}" for v in VEHICLES for p in PARTS) + tuple(f"drawbar.{p}" for p in DRAWBAR)
 G_N = 9.80665
@@ -60,4 +70,6 @@ def follow(unit: Unit, parameters: Parameters, grade: float, duration: float, h:
         stored += M * G_N * np.sin(np.arctan(grade)) * of["body.x"]
         gone[f"{name} tyres"] = integral(of["tyre.F"] * of["tyre.v_slip"])
         gone[f"{name} brakes"] = integral(of["wheel.tau"] * of["wheel.omega"])
+        gone[f"{name} rolling resistance"] = integral(of["wheel.tau_r"] * of["wheel.omega"])
+        gone[f"{name} drag"] = integral(of["body.F_drag"] * of["body.v"])
     return Account(h * np.arange(count + 1), values, stored, gone)

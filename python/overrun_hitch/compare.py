@@ -1,7 +1,8 @@
 """Theory against simulation, for a step brake: each quantity from both sides, what may differ, and a verdict.
 
 Theory is linear.py and steady.py, simulation is the traces alone. Linear theory speaks of a drawbar that is in
-compression all the time, so a run whose drawbar starts out of it (a clearance) or leaves it is reported, not judged.
+compression all the time, on a car and a trailer that nothing but brakes resists, so a run whose drawbar starts out of
+it (a clearance) or leaves it, or that has drag or rolling resistance, is reported, not judged.
 
 What may differ, and why:
 
@@ -53,7 +54,7 @@ class _Run:
     slip: float  # the largest
     mode: ShuntingMode | None  # along v_car; None: there is none (k = r = 0)
     stays: bool  # in compression from here on
-    out_of_compression: str  # "" or a sentence about when the drawbar is not in compression
+    beyond_theory: str  # "" or why theory does not speak of it: when the drawbar is not in compression, first of all
 
     @property
     def window(self) -> slice:
@@ -82,7 +83,7 @@ def compare(run: xr.Dataset, alone: xr.Dataset) -> list[Judged]:
 def shunting(run: xr.Dataset) -> tuple[Oscillation | NoOscillation, str]:
     """The shunting oscillation as `compare` measures it, and "" or when the drawbar leaves compression meanwhile."""
     part = _settled_part(run)
-    return _oscillation(part), "" if part.stays else part.out_of_compression
+    return _oscillation(part), "" if part.stays else part.beyond_theory
 
 
 def _oscillation(part: _Run) -> Oscillation | NoOscillation:
@@ -109,13 +110,14 @@ def _settled_part(run: xr.Dataset) -> _Run:
         slip=float(np.abs([values(run, "slip_car")[after], values(run, "slip_trailer")[after]]).max()),
         mode=shunting_mode(p, v_car) if mode_exists else None,
         stays=stays,
-        out_of_compression=sentence,
+        beyond_theory=sentence
+        or ("theory has no drag and no rolling resistance" if p.CdA_c + p.CdA_t + p.C_rr > 0.0 else ""),
     )
 
 
 def _mode_rows(part: _Run, window: slice, found: Oscillation | NoOscillation) -> list[Judged]:
     growth = frequency = math.nan
-    reason = part.out_of_compression
+    reason = part.beyond_theory
     if part.mode is None:
         reason = reason or "k = r = 0 leave no shunting mode"
     else:
@@ -157,7 +159,7 @@ def _steady_rows(part: _Run, found: Oscillation | NoOscillation, run: xr.Dataset
 
 def _steady_values(part: _Run, found: Oscillation | NoOscillation) -> tuple[float, float, str]:
     """A (m/s2), D (m) and why they are not to be judged: from the settled end of the run, else from the fit."""
-    reason = part.out_of_compression
+    reason = part.beyond_theory
     settled = part.decay(SETTLED)
     if part.stays and settled < len(part.time) - 1:
         tail = slice(settled, None)

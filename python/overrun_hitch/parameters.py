@@ -100,6 +100,12 @@ class Parameters(Quantities):
     eps: float = quantity(0.0, "m", "drawbar clearance", ge=0.0)
     F_pull_max: float = quantity(1e9, "N", "largest pull of the damper in a drawbar that is pushed in", ge=0.0)
     mu: float = quantity(1e9, "1", "friction between tyres and road", ge=0.01)
+    CdA_c: float = quantity(0.0, "m2", "drag area of the car", ge=0.0)
+    CdA_t: float = quantity(0.0, "m2", "drag area of the trailer", ge=0.0)
+    C_rr: float = quantity(0.0, "1", "rolling resistance over load", ge=0.0)
+    reverse_braking: float = quantity(
+        0.0, "1", "share of the trailer's brake torque that acts backward", ge=0.0, le=1.0
+    )
     V_0: float = quantity(40.0, "m/s", "speed at the start")
     compression_start: float = quantity(0.0, "m", "drawbar compression at the start")
 

@@ -15,7 +15,10 @@ from fmpy.validation import validate_fmu
 from fmu_build import pipeline
 from fmu_build.pipeline import build
 
-PARAMETERS = "M_c M_t I_c I_t R_c R_t C_kc C_kt k k_t C r eps F_pull_max mu V_0 compression_start".split()
+PARAMETERS = (
+    "M_c M_t I_c I_t R_c R_t C_kc C_kt k k_t C r eps F_pull_max mu "
+    "CdA_c CdA_t C_rr reverse_braking V_0 compression_start"
+).split()
 OUTPUTS = "v_car v_trailer a_car a_trailer compression F_hitch slip_car slip_trailer trailer_brake_torque".split()
 
 

@@ -15,6 +15,10 @@ model CarTrailer "Car and trailer with an overrun brake (Sharp 1982)"
   parameter Units.Length eps(min=0) = 0 "Drawbar clearance (backlash)";
   parameter Units.Force F_pull_max(min=0) = 1e9 "Largest pull of the damper in a drawbar that is pushed in: 0 for none; the paper's damper has no limit";
   parameter Units.Friction mu = 1e9 "Friction between tyres and road; the paper's has no limit";
+  parameter Units.Area CdA_c = 0 "Drag area of the car (drag coefficient times frontal area); the paper's has none";
+  parameter Units.Area CdA_t = 0 "Drag area of the trailer (drag coefficient times frontal area); the paper's has none";
+  parameter Units.RollingResistance C_rr = 0 "Rolling resistance over load; the paper's has none";
+  parameter Units.Share reverse_braking = 0 "Share of the trailer's brake torque that acts on wheels turning backward: 0 for a reversing lock-out, 1 for none";
   parameter Units.Velocity V_0 = 40 "Speed of both vehicles at the start";
   parameter Units.Length compression_start = 0 "Drawbar compression at the start";
   Interfaces.TorqueInput brake_torque(min=0) "Torque that the car's brakes can hold, on its lumped wheels: friction, against the rolling" annotation(Placement(transformation(extent={{20,80},{60,120}}, rotation=-90)));
@@ -27,9 +31,9 @@ model CarTrailer "Car and trailer with an overrun brake (Sharp 1982)"
   output Units.Force F_hitch = car.hitch.f "Hitch force on the car, positive forward: a pushing trailer gives a positive value";
   output Units.Slip slip_car = car.tyre.slip "Longitudinal slip of the car's wheels, positive when braking";
   output Units.Slip slip_trailer = trailer.tyre.slip "Longitudinal slip of the trailer's wheels, positive when braking";
-  output Units.Torque trailer_brake_torque = linkage.brake_torque "Torque that the trailer's brakes can hold, on its lumped wheels";
-  Components.BrakedVehicle car(M=M_c, I=I_c, R=R_c, C_k=C_kc, V_0=V_0, mu=mu, final x_0=0) "Car" annotation(Placement(transformation(extent={{40,-20},{80,20}})));
-  Components.BrakedVehicle trailer(M=M_t, I=I_t, R=R_t, C_k=C_kt, V_0=V_0, mu=mu, x_0=compression_start) "Trailer" annotation(Placement(transformation(extent={{-80,-20},{-40,20}})));
+  output Units.Torque trailer_brake_torque = trailer.wheel.tau "Brake torque on the trailer's lumped wheels, positive when it slows wheels that roll forward";
+  Components.BrakedVehicle car(M=M_c, I=I_c, R=R_c, C_k=C_kc, V_0=V_0, mu=mu, CdA=CdA_c, C_rr=C_rr, final reverse_braking=1, final x_0=0) "Car" annotation(Placement(transformation(extent={{40,-20},{80,20}})));
+  Components.BrakedVehicle trailer(M=M_t, I=I_t, R=R_t, C_k=C_kt, V_0=V_0, mu=mu, CdA=CdA_t, C_rr=C_rr, reverse_braking=reverse_braking, x_0=compression_start) "Trailer" annotation(Placement(transformation(extent={{-80,-20},{-40,20}})));
   Components.Drawbar drawbar(k=k, k_t=k_t, C=C, eps=eps, F_pull_max=F_pull_max) "Drawbar" annotation(Placement(transformation(extent={{-20,-20},{20,20}})));
   Components.Road road "Road" annotation(Placement(transformation(extent={{-80,70},{-60,90}})));
   Components.BrakeLinkage linkage(r=r, eps=eps) "Linkage from drawbar to trailer brakes" annotation(Placement(transformation(extent={{-20,-70},{-60,-50}})));
