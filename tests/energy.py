@@ -49,12 +49,16 @@ class Account:
 
 def follow(unit: Unit, parameters: Parameters, grade: float, duration: float, h: float) -> Account:
     """Go on with a unit that has been started, and sample it every `h` (s)."""
-    count = round(duration / h)
     rows = [unit.get(*NAMES)]
-    for n in range(count):
+    for n in range(round(duration / h)):
         unit.slave.doStep(n * h, h)
         rows.append(unit.get(*NAMES))
-    values = dict(zip(NAMES, np.array(rows).T, strict=True))
+    return account(parameters, grade, h, np.array(rows))
+
+
+def account(parameters: Parameters, grade: float, h: float, samples: Floats) -> Account:
+    """Add up `samples`, rows of NAMES every `h` (s) from a run's start."""
+    values = dict(zip(NAMES, samples.T, strict=True))
     values["trailer.body.x"] = values["car.body.x"] + values["drawbar.compression"]
 
     def integral(power: Floats) -> Floats:
@@ -72,4 +76,4 @@ def follow(unit: Unit, parameters: Parameters, grade: float, duration: float, h:
         gone[f"{name} brakes"] = integral(of["wheel.tau"] * of["wheel.omega"])
         gone[f"{name} rolling resistance"] = integral(of["wheel.tau_r"] * of["wheel.omega"])
         gone[f"{name} drag"] = integral(of["body.F_drag"] * of["body.v"])
-    return Account(h * np.arange(count + 1), values, stored, gone)
+    return Account(h * np.arange(len(samples)), values, stored, gone)

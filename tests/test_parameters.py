@@ -48,12 +48,13 @@ CHANGED = {
     "CdA_c": 0.7,
     "CdA_t": 1.0,
     "C_rr": 0.01,
+    "reverse_braking": 0.0,
 }
 BACKWARD = {"reverse_braking"}  # what matters there alone
 
 
 def changed(name: str) -> dict[str, float]:
-    return {name: CHANGED.get(name, 1.1 * LIVELY.get(name, getattr(DATUM, name)) or 1.0)}
+    return {name: CHANGED.get(name, 1.1 * LIVELY.get(name, getattr(DATUM, name)))}
 
 
 def lively(name: str) -> dict[str, float]:

@@ -1,4 +1,4 @@
-"""Drag and rolling resistance: coasting, terminal speed and rest against closed forms; a trailer that is pushed back."""
+"""Drag and rolling resistance: coasting, terminal speed, rest against closed forms; a trailer that is pushed back."""
 
 from __future__ import annotations
 

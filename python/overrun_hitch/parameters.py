@@ -104,7 +104,7 @@ class Parameters(Quantities):
     CdA_t: float = quantity(0.0, "m2", "drag area of the trailer", ge=0.0)
     C_rr: float = quantity(0.0, "1", "rolling resistance over load", ge=0.0)
     reverse_braking: float = quantity(
-        0.0, "1", "share of the trailer's brake torque that acts backward", ge=0.0, le=1.0
+        1.0, "1", "share of the trailer's brake torque that acts backward", ge=0.0, le=1.0
     )
     V_0: float = quantity(40.0, "m/s", "speed at the start")
     compression_start: float = quantity(0.0, "m", "drawbar compression at the start")

@@ -18,7 +18,7 @@ model CarTrailer "Car and trailer with an overrun brake (Sharp 1982)"
   parameter Units.Area CdA_c = 0 "Drag area of the car (drag coefficient times frontal area); the paper's has none";
   parameter Units.Area CdA_t = 0 "Drag area of the trailer (drag coefficient times frontal area); the paper's has none";
   parameter Units.RollingResistance C_rr = 0 "Rolling resistance over load; the paper's has none";
-  parameter Units.Share reverse_braking = 0 "Share of the trailer's brake torque that acts on wheels turning backward: 0 for a reversing lock-out, 1 for none";
+  parameter Units.Share reverse_braking = 1 "Share of the trailer's brake torque that acts on wheels turning backward: 0 for a reversing lock-out; the paper's has none";
   parameter Units.Velocity V_0 = 40 "Speed of both vehicles at the start";
   parameter Units.Length compression_start = 0 "Drawbar compression at the start";
   Interfaces.TorqueInput brake_torque(min=0) "Torque that the car's brakes can hold, on its lumped wheels: friction, against the rolling" annotation(Placement(transformation(extent={{20,80},{60,120}}, rotation=-90)));

@@ -13,7 +13,7 @@ model Trailer "Trailer with an overrun brake behind somebody else's car (Sharp 1
   parameter Units.Friction mu = 1e9 "Friction between tyres and road; the paper's has no limit";
   parameter Units.Area CdA_t = 0 "Drag area of the trailer (drag coefficient times frontal area); the paper's has none";
   parameter Units.RollingResistance C_rr = 0 "Rolling resistance over load; the paper's has none";
-  parameter Units.Share reverse_braking = 0 "Share of the trailer's brake torque that acts on wheels turning backward: 0 for a reversing lock-out, 1 for none";
+  parameter Units.Share reverse_braking = 1 "Share of the trailer's brake torque that acts on wheels turning backward: 0 for a reversing lock-out; the paper's has none";
   parameter Units.Velocity V_0 = 40 "Speed of the trailer at the start; v_car is expected to be the same";
   parameter Units.Length compression_start = 0 "Drawbar compression at the start";
   parameter Real extrapolation(final unit="1", min=0, max=1) = 1 "1: inside a step v_car goes on as it changed over the last one, 0: it is held (Co-Simulation)";
