@@ -145,6 +145,16 @@ def test_in_reverse_the_share_of_the_trailers_brakes_that_is_not_locked_out_acts
     np.testing.assert_allclose(torque, -share * held, rtol=1e-12, atol=0.0)
 
 
+@pytest.mark.parametrize(("share", "C_rr", "bound"), [(1.0, 0.0, 1e-15), (0.0, 0.0, 1e-5), (0.0, 0.01, 1e-6)], ids=str)
+def test_the_last_swing(unit: Unit, share: float, C_rr: float, bound: float) -> None:
+    """Brakes that let go backward leave it to the damper, and to the rolling resistance."""
+    start(unit, brake_torque=2000.0, V_0=30.0, mu=1.0, reverse_braking=share, C_rr=C_rr)
+    speeds = np.abs(run(unit, 0.0, 25.0, "v_car", "v_trailer")).max(axis=1)
+    standstill = int(np.flatnonzero(speeds > 0.1)[-1])
+    print(f"{share:g} of the brakes backward, C_rr = {C_rr:g}: {speeds[standstill + 1000]:.1e} m/s after 10 s")
+    assert speeds[standstill + 1000] < bound
+
+
 def test_the_combination_brakes_in_reverse(unit: Unit) -> None:
     start(unit, brake_torque=1000.0, V_0=-10.0)
     rows = run(unit, 0.0, 15.0, "v_car", "v_trailer", "compression")

@@ -1,8 +1,8 @@
 """Theory against simulation, for a step brake: each quantity from both sides, what may differ, and a verdict.
 
 Theory is linear.py and steady.py, simulation is the traces alone. Linear theory speaks of a drawbar that is in
-compression all the time, on a car and a trailer that nothing but brakes resists, so a run whose drawbar starts out of
-it (a clearance) or leaves it, or that has drag or rolling resistance, is reported, not judged.
+compression all the time, so a run whose drawbar starts out of it (a clearance) or leaves it is reported, not judged.
+Nor is a run with a parameter of BEYOND_THEORY.
 
 What may differ, and why:
 
@@ -26,7 +26,7 @@ from overrun_hitch.events import compressed_from
 from overrun_hitch.judged import Judged
 from overrun_hitch.linear import ShuntingMode, shunting_mode, wheel_decay_rate
 from overrun_hitch.oscillation import NoOscillation, Oscillation, measure
-from overrun_hitch.parameters import HitchError, Parameters
+from overrun_hitch.parameters import DATUM, HitchError, Parameters
 from overrun_hitch.results import scenario_of, values
 from overrun_hitch.steady import steady
 
@@ -36,6 +36,8 @@ GROWTH_RATE_ALLOWED = (0.005, 0.01)  # 1/s, and relative
 FREQUENCY_ALLOWED = 0.002  # relative
 STEADY_ALLOWED = 1e-4  # relative, beside slip
 RATIO_ALLOWED = 0.0005
+
+BEYOND_THEORY = ("F_pull_max", "mu", "CdA_c", "CdA_t", "C_rr")  # judged at their neutral values alone
 
 WHEELS_SETTLED = math.log(1e6)  # the wheels' transient starts at the size of the motion itself
 DECAYED = math.log(100.0)  # 40 dB down the rest weighs nothing in the fit, and soon is the integrator's noise
@@ -54,7 +56,7 @@ class _Run:
     slip: float  # the largest
     mode: ShuntingMode | None  # along v_car; None: there is none (k = r = 0)
     stays: bool  # in compression from here on
-    beyond_theory: str  # "" or why theory does not speak of it: when the drawbar is not in compression, first of all
+    not_linear: str  # "" or a sentence about why linear theory does not hold
 
     @property
     def window(self) -> slice:
@@ -81,9 +83,9 @@ def compare(run: xr.Dataset, alone: xr.Dataset) -> list[Judged]:
 
 
 def shunting(run: xr.Dataset) -> tuple[Oscillation | NoOscillation, str]:
-    """The shunting oscillation as `compare` measures it, and "" or when the drawbar leaves compression meanwhile."""
+    """The shunting oscillation as `compare` measures it, and "" or why linear theory does not hold meanwhile."""
     part = _settled_part(run)
-    return _oscillation(part), "" if part.stays else part.beyond_theory
+    return _oscillation(part), "" if part.stays else part.not_linear
 
 
 def _oscillation(part: _Run) -> Oscillation | NoOscillation:
@@ -110,14 +112,19 @@ def _settled_part(run: xr.Dataset) -> _Run:
         slip=float(np.abs([values(run, "slip_car")[after], values(run, "slip_trailer")[after]]).max()),
         mode=shunting_mode(p, v_car) if mode_exists else None,
         stays=stays,
-        beyond_theory=sentence
-        or ("theory has no drag and no rolling resistance" if p.CdA_c + p.CdA_t + p.C_rr > 0.0 else ""),
+        not_linear=_beyond_theory(p) or sentence,
     )
+
+
+def _beyond_theory(p: Parameters) -> str:
+    """The first parameter that is not neutral and that theory does not know; "" if there is none."""
+    changed = [name for name in BEYOND_THEORY if getattr(p, name) != getattr(DATUM, name)]
+    return f"{changed[0]} = {getattr(p, changed[0]):g} is beyond linear theory" if changed else ""
 
 
 def _mode_rows(part: _Run, window: slice, found: Oscillation | NoOscillation) -> list[Judged]:
     growth = frequency = math.nan
-    reason = part.beyond_theory
+    reason = part.not_linear
     if part.mode is None:
         reason = reason or "k = r = 0 leave no shunting mode"
     else:
@@ -159,7 +166,7 @@ def _steady_rows(part: _Run, found: Oscillation | NoOscillation, run: xr.Dataset
 
 def _steady_values(part: _Run, found: Oscillation | NoOscillation) -> tuple[float, float, str]:
     """A (m/s2), D (m) and why they are not to be judged: from the settled end of the run, else from the fit."""
-    reason = part.beyond_theory
+    reason = part.not_linear
     settled = part.decay(SETTLED)
     if part.stays and settled < len(part.time) - 1:
         tail = slice(settled, None)

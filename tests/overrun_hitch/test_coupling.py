@@ -232,7 +232,9 @@ def test_bad_input(
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.parametrize(("C", "eps", "mu"), [(20.0, 0.1, 0.3), (500.0, 0.0, 1.0)])
+@pytest.mark.parametrize("mu", [1.0, 0.3])
+@pytest.mark.parametrize("eps", [0.0, 0.1])
+@pytest.mark.parametrize("C", [20.0, 500.0, 3200.0])
 def test_the_pair_comes_to_rest(pair: Pair, whole: HitchUnit, C: float, eps: float, mu: float) -> None:
     """From 30 m/s and 10 s beyond, force to hold, 10 ms: it stops where the whole does, and stands."""
     p = CASES["ii"].changed({"C": C, "eps": eps, "mu": mu, "V_0": 30.0, "CdA_c": 0.7, "CdA_t": 1.2, "C_rr": 0.01})

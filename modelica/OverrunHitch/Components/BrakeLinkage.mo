@@ -13,6 +13,6 @@ equation
       Text(extent={{-100,100},{100,65}}, textColor={0,0,255}, textString="%name")}),
     Documentation(info="<html>
 <p>Torque proportional to the compression beyond the clearance (the paper's equation 6); none within the clearance and
-none in tension. It acts without delay, and in reverse too: there is no reversing lock-out.</p>
+none in tension. It acts without delay. Whether it acts in reverse too is told by the wheel's <code>reverse_braking</code>.</p>
 </html>"));
 end BrakeLinkage;

@@ -39,7 +39,7 @@ equation
 rolls forward, <code>grade</code> uphill. <code>brake_torque</code> is what the brakes can hold: it acts against the rolling in
 both directions, and holds a wheel that has stopped.</p>
 <h2>Limits</h2>
-<p>No drag and no rolling resistance. From 0.5 m/s on the tyre force follows the slip without lag. With
+<p>By default no drag and no rolling resistance. From 0.5 m/s on the tyre force follows the slip without lag. With
 the default <code>mu</code> nothing limits it: hard braking and slips beyond about 0.1 need a true one.</p>
 <h2>Source</h2>
 <p>R. S. Sharp, <em>Longitudinal Oscillations of Vehicle/Trailer Combinations Induced by Overrun Braking</em>, Vehicle

@@ -66,8 +66,9 @@ equation
 <code>compression</code> is <code>x_t - x_c</code>, positive when the drawbar is pushed in. <code>F_hitch</code> is the
 force on the car, positive forward: a pushing trailer gives a positive value; it is minus the paper's F_h, which is
 positive in tension. <code>grade</code> is positive uphill. Slips and brake torques are positive when they brake a
-vehicle that rolls forward. <code>brake_torque</code> and <code>trailer_brake_torque</code> are what brakes can hold: they
-act against the rolling in both directions, and hold a wheel that has stopped. The paper's road is level,
+vehicle that rolls forward. <code>brake_torque</code> is what the car's brakes can hold: they
+act against the rolling in both directions, and hold a wheel that has stopped. <code>trailer_brake_torque</code> is what acts
+on the trailer's wheels. The paper's road is level,
 <code>grade = 0</code>.</p>
 <h2>Parameters</h2>
 <p>Masses, inertias, radii and tyre stiffnesses are the datum of the paper's section 7; <code>k</code> and <code>r</code>
@@ -77,7 +78,7 @@ those of its case ii (section 8.1); <code>k_t = 100 k</code> that of figures 6a 
 <code>F_pull_max = 0</code> the damper never makes a compressed drawbar pull, nor one at its stop push; the default is
 beyond any damper's force.</p>
 <h2>Limits</h2>
-<p>No drag, no rolling resistance, no reversing lock-out. From 0.5 m/s on the tyre force follows the slip without lag. With
+<p>By default no drag, no rolling resistance, no reversing lock-out (<code>CdA</code>, <code>C_rr</code>, <code>reverse_braking</code>). From 0.5 m/s on the tyre force follows the slip without lag. With
 the default <code>mu</code> nothing limits it: hard braking and slips beyond about 0.1 need a true one.</p>
 <h2>Source</h2>
 <p>R. S. Sharp, <em>Longitudinal Oscillations of Vehicle/Trailer Combinations Induced by Overrun Braking</em>, Vehicle

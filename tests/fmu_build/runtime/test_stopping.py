@@ -51,7 +51,7 @@ def stop(library: Library, **values: float) -> tuple[np.ndarray, list[Counters]]
 
 @pytest.mark.parametrize("seed", range(12))
 def test_rough_input_around_standstill(car_trailer: Library, seed: int) -> None:
-    """A minute of brake torques and grades that jump every 0.1 s, all options at once: no error, few steps and events."""
+    """A minute of brake torques and grades that jump every 0.1 s, options at random: no error, few steps and events."""
     random = np.random.default_rng(seed)
     unit = Unit(car_trailer, logging=True)
     try:
