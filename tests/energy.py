@@ -47,6 +47,20 @@ class Account:
         return float(np.abs(self.stored - self.stored[0] + sum(self.gone.values())).max())
 
 
+def in_drawbar(p: Parameters, x: Floats) -> Floats:
+    """What the drawbar's springs store (J) at the compressions `x` (m): a parabola from each change of stiffness on."""
+    yields = p.eps + p.F_0 / p.k_t
+    changes = [
+        (p.eps, p.k_t),
+        (yields, p.k - p.k_t),
+        (p.eps + p.x_2, p.k_2 - p.k),
+        (p.eps + p.x_3, p.k_3 - p.k_2),
+        (p.travel, p.k_buffer - p.k_3),
+    ]
+    compressed = sum(0.5 * change * np.maximum(x - start, 0.0) ** 2 for start, change in changes)
+    return np.asarray(compressed + 0.5 * p.k_t * np.minimum(x, 0.0) ** 2)
+
+
 def follow(unit: Unit, parameters: Parameters, grade: float, duration: float, h: float) -> Account:
     """Go on with a unit that has been started, and sample it every `h` (s)."""
     rows = [unit.get(*NAMES)]
@@ -65,7 +79,7 @@ def account(parameters: Parameters, grade: float, h: float, samples: Floats) -> 
         return np.asarray(cumulative_simpson(power, dx=h, initial=0.0))
 
     p, x = parameters, values["drawbar.compression"]
-    stored = 0.5 * p.k * np.maximum(x - p.eps, 0.0) ** 2 + 0.5 * p.k_t * np.minimum(x, 0.0) ** 2
+    stored = in_drawbar(p, x)
     damper = -values["drawbar.F_h"] - values["drawbar.F_spring"]
     gone = {"damper": integral(damper * values["drawbar.v_rel"])}
     for name, M, inertia in (("car", p.M_c, p.I_c), ("trailer", p.M_t, p.I_t)):

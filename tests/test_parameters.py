@@ -38,8 +38,11 @@ def unit(car_trailer_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Ite
     unit.slave.freeInstance()
 
 
-# A run in which every parameter matters: into compression, back through the clearance, into tension.
-LIVELY = {"brake_torque": 1000.0, "C": 20.0, "eps": 0.01}
+# A run in which every parameter matters: into the buffer, back through the clearance, into tension.
+LIVELY = {
+    "brake_torque": 1000.0, "C": 20.0, "eps": 0.01,
+    "F_0": 100.0, "x_2": 0.01, "k_2": 8000.0, "x_3": 0.02, "k_3": 12e3, "travel": 0.035,
+}  # fmt: skip
 CHANGED = {
     "eps": 0.02,
     "compression_start": 0.005,

@@ -44,12 +44,17 @@ def run(unit: Unit, begin: float, end: float, *names: str) -> np.ndarray:
     return np.array(rows)
 
 
+AS_SOLD = {  # a drawbar with everything, in steps so small that a stop takes it from tension through all of them
+    "compression_start": -0.002, "eps": 0.005, "F_0": 150.0, "x_2": 0.02, "k_2": 9000.0, "x_3": 0.035, "k_3": 15e3,
+    "travel": 0.045, "k_buffer": 200e3, "rebound": 3.0,
+}  # fmt: skip
 STOPS = [  # brake torque (N.m), grade, changed parameters
     (2000.0, 0.0, {"C": 500.0}),
     (2000.0, 0.1, {"C": 3200.0, "mu": 1.0}),
     (2000.0, -0.1, {"C": 0.0, "mu": 1.0, "eps": 0.1}),
     (1600.0, 0.0, {"C": 100.0, "mu": 0.3, "eps": 0.1}),
     (1600.0, -0.05, {"C": 500.0, "mu": 0.8, "eps": 0.01, "CdA_c": 0.7, "CdA_t": 1.2, "C_rr": 0.015}),
+    (2000.0, 0.0, {"C": 300.0, "mu": 1.0, **AS_SOLD}),
 ]
 
 
@@ -66,6 +71,9 @@ def test_energy_and_stopping_distance(unit: Unit, torque: float, grade: float, c
     shares = {name: float(gone[-1] / kinetic) for name, gone in energy.gone.items()}
     print(f"off by {energy.imbalance / kinetic:.1e}; " + ", ".join(f"{n} {s:.4f}" for n, s in shares.items()))
     assert energy.imbalance < 1e-6 * kinetic
+    if "travel" in changes:
+        compression = energy.values["drawbar.compression"]
+        assert compression.max() > p.travel and compression.min() < 0.0
     assert all(share > -1e-9 for share in shares.values())
     distance = float(energy.values["car.body.x"][-1])
     weight = (p.M_c + p.M_t) * G_N * np.sin(np.arctan(grade))

@@ -1,8 +1,8 @@
 """Theory against simulation, for a step brake: each quantity from both sides, what may differ, and a verdict.
 
 Theory is linear.py and steady.py, simulation is the traces alone. Linear theory speaks of a drawbar that is in
-compression all the time, so a run whose drawbar starts out of it (a clearance) or leaves it is reported, not judged.
-Nor is a run with a parameter of BEYOND_THEORY.
+compression all the time, so a run whose drawbar starts out of it (a clearance, a threshold) or leaves it is reported,
+not judged. Nor is a run with what theory does not know: a second stiffness reached, or a parameter of BEYOND_THEORY.
 
 What may differ, and why:
 
@@ -37,7 +37,7 @@ FREQUENCY_ALLOWED = 0.002  # relative
 STEADY_ALLOWED = 1e-4  # relative, beside slip
 RATIO_ALLOWED = 0.0005
 
-BEYOND_THEORY = ("F_pull_max", "mu", "CdA_c", "CdA_t", "C_rr")  # judged at their neutral values alone
+BEYOND_THEORY = ("F_pull_max", "rebound", "mu", "CdA_c", "CdA_t", "C_rr")  # judged at their neutral values alone
 
 WHEELS_SETTLED = math.log(1e6)  # the wheels' transient starts at the size of the motion itself
 DECAYED = math.log(100.0)  # 40 dB down the rest weighs nothing in the fit, and soon is the integrator's noise
@@ -95,7 +95,8 @@ def _oscillation(part: _Run) -> Oscillation | NoOscillation:
 def _settled_part(run: xr.Dataset) -> _Run:
     p = scenario_of(run).parameters
     time, compression = values(run, "time"), values(run, "compression")
-    entry, stays, sentence = compressed_from(time, compression, values(run, "v_trailer") - values(run, "v_car"), p.eps)
+    rate = values(run, "v_trailer") - values(run, "v_car")
+    entry, stays, sentence = compressed_from(time, compression, rate, p.gives_from, p.linear_until)
     try:
         start = max(entry, WHEELS_SETTLED / max(wheel_decay_rate(p, p.V_0), 1e-9))
         mode_exists = True

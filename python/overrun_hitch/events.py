@@ -50,13 +50,17 @@ def passages(run: xr.Dataset) -> tuple[Passage, ...]:
     return tuple(sorted(found, key=lambda passage: passage.time))
 
 
-def compressed_from(time: Floats, compression: Floats, rate: Floats, eps: float) -> tuple[float, bool, str]:
+def compressed_from(
+    time: Floats, compression: Floats, rate: Floats, start: float, end: float
+) -> tuple[float, bool, str]:
     """When (s) the drawbar is first compressed, whether it stays so, and a sentence if it was or is not so.
 
-    Samples are (n,), in s, m and m/s. To a sixteenth of the sampling step.
+    Compressed between `start` and `end` (m), where its stiffness is one. Samples are (n,), in s, m and m/s. To a
+    sixteenth of the sampling step.
     """
     fine = np.linspace(time[0], time[-1], 16 * (len(time) - 1) + 1)
-    inside = _path(time, compression, rate)(fine) > eps
+    path = _path(time, compression, rate)(fine)
+    inside = path > start
     if not inside.any():
         return float(time[0]), False, "drawbar is never in compression"
     first = int(inside.argmax())
@@ -64,7 +68,10 @@ def compressed_from(time: Floats, compression: Floats, rate: Floats, eps: float)
     if not inside[first:].all():
         leaves = fine[first + int((~inside[first:]).argmax())]
         return entry, False, f"drawbar leaves compression at t = {leaves:.2f} s"
-    if compression[0] < eps:
+    if (path > end).any():
+        passed = fine[int((path > end).argmax())]
+        return entry, False, f"drawbar's stiffness changes, at {end:g} m, at t = {passed:.2f} s"
+    if compression[0] < start:
         return entry, True, f"drawbar comes into compression only at t = {entry:.2f} s"
     return entry, True, ""
 

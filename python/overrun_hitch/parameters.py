@@ -10,6 +10,7 @@ Dynamics 11:1 (1982) 43-61, doi 10.1080/00423118208968687. Called "the paper" th
 from __future__ import annotations
 
 import difflib
+import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -99,6 +100,14 @@ class Parameters(Quantities):
     r: float = quantity(2.975 * 5480.0, "N.m/m", "trailer brake torque per unit of drawbar compression", ge=0.0)
     eps: float = quantity(0.0, "m", "drawbar clearance", ge=0.0)
     F_pull_max: float = quantity(1e9, "N", "largest pull of the damper in a drawbar that is pushed in", ge=0.0)
+    rebound: float = quantity(1.0, "1", "damper coefficient while the drawbar springs back, over C", ge=0.0)
+    F_0: float = quantity(0.0, "N", "push up to which the drawbar gives by k_t alone", ge=0.0)
+    x_2: float = quantity(1e3, "m", "drawbar compression beyond the clearance from which its stiffness is k_2", ge=0.0)
+    k_2: float = quantity(5480.0, "N/m", "drawbar stiffness from x_2 on", ge=0.0)
+    x_3: float = quantity(1e3, "m", "drawbar compression beyond the clearance from which its stiffness is k_3", ge=0.0)
+    k_3: float = quantity(5480.0, "N/m", "drawbar stiffness from x_3 on", ge=0.0)
+    travel: float = quantity(1e3, "m", "drawbar compression at which it meets the buffer", ge=0.0)
+    k_buffer: float = quantity(548e3, "N/m", "drawbar stiffness from there on", ge=0.0)
     mu: float = quantity(1e9, "1", "friction between tyres and road", ge=0.01)
     CdA_c: float = quantity(0.0, "m2", "drag area of the car", ge=0.0)
     CdA_t: float = quantity(0.0, "m2", "drag area of the trailer", ge=0.0)
@@ -108,6 +117,18 @@ class Parameters(Quantities):
     )
     V_0: float = quantity(40.0, "m/s", "speed at the start")
     compression_start: float = quantity(0.0, "m", "drawbar compression at the start")
+
+    @property
+    def gives_from(self) -> float:
+        """Compression (m) from which the spring gives and the trailer is braked: clearance, and F_0 on the frame."""
+        if self.F_0 == 0.0:
+            return self.eps
+        return self.eps + self.F_0 / self.k_t if self.k_t > 0.0 else math.inf
+
+    @property
+    def linear_until(self) -> float:
+        """Compression (m) up to which, from `gives_from` on, the stiffness is k."""
+        return max(self.gives_from, min(self.eps + min(self.x_2, self.x_3), self.travel))
 
     def changed(self, changes: Mapping[str, Any]) -> Parameters:
         """A copy with `changes` (name: value); HitchError for an unknown name or a value out of range."""

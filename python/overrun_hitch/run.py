@@ -63,8 +63,9 @@ def brake(unit: HitchUnit, scenario: Scenario, settings: Settings) -> xr.Dataset
 
 
 def car_alone(scenario: Scenario) -> Scenario:
-    """The same step brake with nothing between car and trailer (k = k_t = C = r = 0): the car as if alone."""
-    loose = scenario.parameters.changed({"k": 0.0, "k_t": 0.0, "C": 0.0, "r": 0.0})
+    """The same step brake with nothing between car and trailer (k = k_t = C = r = F_0 = 0): the car as if alone."""
+    nothing = dict.fromkeys(("k", "k_t", "k_2", "k_3", "k_buffer", "C", "r", "F_0"), 0.0)
+    loose = scenario.parameters.changed(nothing)
     return scenario.changed(name=f"{scenario.name}, car alone", parameters=loose)
 
 

@@ -18,12 +18,13 @@ class Steady:
 
 
 def steady(parameters: Parameters, brake_torque: float) -> Steady:
-    """Solve the paper's equation 15, with wheel accelerations A/R (slip is neglected beside 1).
+    """Solve the paper's equation 15, with wheel accelerations A/R (slip is neglected beside 1) and a threshold F_0.
 
-        A (M_t + I_t/R_t^2) = -d (k + r/R_t)
-        A (M_c + I_c/R_c^2) =  k d - brake_torque/R_c        d = D - eps
+        A (M_t + I_t/R_t^2) = -(F_0 + k d) - d r/R_t
+        A (M_c + I_c/R_c^2) =   F_0 + k d  - brake_torque/R_c        d = D - eps - F_0/k_t
 
-    brake_torque in N.m. HitchError where nothing holds or brakes the trailer (k = r = 0).
+    A push within F_0 leaves the trailer unbraked, and D = eps + push/k_t. brake_torque in N.m. HitchError where nothing
+    holds or brakes the trailer (k = r = 0).
     """
     p = parameters
     if p.k + p.r <= 0.0:
@@ -34,4 +35,10 @@ def steady(parameters: Parameters, brake_torque: float) -> Steady:
     share = p.k / (p.k + p.r / p.R_t)
     A_c = -brake_torque / p.R_c / car
     ratio = car / (car + share * trailer)
-    return Steady(A=ratio * A_c, A_c=A_c, ratio=ratio, D=p.eps - ratio * A_c * trailer / (p.k + p.r / p.R_t))
+    A = ratio * (A_c + (1.0 - share) * p.F_0 / car)
+    d = -(A * trailer + p.F_0) / (p.k + p.r / p.R_t)
+    if d >= 0.0:
+        return Steady(A=A, A_c=A_c, ratio=A / A_c if p.F_0 > 0.0 else ratio, D=p.gives_from + d)
+    A = car / (car + trailer) * A_c
+    D = p.eps - A * trailer / p.F_0 * (p.gives_from - p.eps)
+    return Steady(A=A, A_c=A_c, ratio=car / (car + trailer), D=D)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 import xarray as xr
@@ -10,7 +12,7 @@ import xarray as xr
 from overrun_hitch.compare import compare
 from overrun_hitch.judged import Judged
 from overrun_hitch.parameters import CASES, FIGURES, Scenario
-from overrun_hitch.run import car_alone
+from overrun_hitch.run import car_alone, step_brake
 from tests.oracles import radau
 
 OracleRun = Callable[..., xr.Dataset]
@@ -22,6 +24,11 @@ def scenario(case: str = "ii", **changes: float) -> Scenario:
 
 def compared(run: OracleRun, subject: Scenario, milliseconds: int = 10) -> dict[str, Judged]:
     rows = compare(run(subject, milliseconds), run(car_alone(subject), milliseconds))
+    return {row.quantity: row for row in rows}
+
+
+def simulated(fmu: Path, subject: Scenario) -> dict[str, Judged]:
+    rows = compare(step_brake(subject, fmu=fmu), step_brake(car_alone(subject), fmu=fmu))
     return {row.quantity: row for row in rows}
 
 
@@ -93,6 +100,35 @@ def test_a_fault_shows(oracle_run: OracleRun, fault: dict[str, float]) -> None:
     run = oracle_run(done)
     run = run.assign_attrs({name: getattr(said.parameters, name) for name in fault})
     assert any(row.differs for row in compare(run, oracle_run(car_alone(said))))
+
+
+@pytest.mark.parametrize("F_0", [100.0, 300.0])
+def test_a_threshold_that_the_push_exceeds_all_the_time_is_judged(car_trailer_fmu: Path, F_0: float) -> None:
+    rows = simulated(car_trailer_fmu, scenario(F_0=F_0, compression_start=0.02))
+    assert {row.verdict for row in rows.values()} == {"agrees"}
+    assert rows["A / A_c"].expected < 0.94
+
+
+@pytest.mark.parametrize(
+    ("changes", "reason"),
+    [
+        ({"F_0": 150.0}, "drawbar comes into compression only at t = 0.02 s"),
+        ({"rebound": 3.0}, "rebound = 3 is beyond linear theory"),
+        ({"F_pull_max": 0.0}, "F_pull_max = 0 is beyond linear theory"),
+        ({"mu": 1.0}, "mu = 1 is beyond linear theory"),
+        ({"x_2": 0.03}, "drawbar's stiffness changes, at 0.03 m, at t = 0.18 s"),
+        ({"travel": 0.02}, "drawbar's stiffness changes, at 0.02 m, at t = 0.14 s"),
+    ],
+)
+def test_no_verdict_on_what_theory_does_not_know(car_trailer_fmu: Path, changes: dict[str, float], reason: str) -> None:
+    rows = simulated(car_trailer_fmu, scenario(**changes))
+    assert {row.not_judged for row in rows.values()} == {reason}
+    assert all(math.isfinite(row.expected) and math.isfinite(row.found) for row in rows.values())
+
+
+def test_a_buffer_out_of_reach_changes_nothing(car_trailer_fmu: Path) -> None:
+    near = simulated(car_trailer_fmu, scenario(travel=0.1, x_2=0.06, k_2=8000.0))
+    assert near == simulated(car_trailer_fmu, scenario())
 
 
 def test_nothing_between_car_and_trailer(oracle_run: OracleRun) -> None:

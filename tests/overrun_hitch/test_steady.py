@@ -39,6 +39,26 @@ def test_clearance_adds_to_the_compression_alone() -> None:
     assert with_clearance.A == without.A
 
 
+@pytest.mark.parametrize("F_0", [100.0, 500.0])
+def test_a_threshold_is_pushed_and_braked_beyond(F_0: float) -> None:
+    """Each vehicle's own balance of forces; a push within the threshold moves the frame alone."""
+    p, torque = FIGURES["10"].parameters.changed({"F_0": F_0}), 1000.0
+    car, trailer = p.M_c + p.I_c / p.R_c**2, p.M_t + p.I_t / p.R_t**2
+    s = steady(p, torque)
+    push = car * s.A + torque / p.R_c
+    beyond = s.D - p.eps - F_0 / p.k_t
+    assert pytest.approx(F_0 + p.k * beyond, rel=1e-12) == push
+    assert -trailer * s.A == pytest.approx(push + p.r / p.R_t * beyond, rel=1e-12)
+    assert s.A_c < s.A < 0.0 and s.ratio == pytest.approx(s.A / s.A_c)
+    gentle = steady(p, 0.1 * torque)
+    if F_0 == 500.0:
+        assert pytest.approx(-0.1 * torque / p.R_c / (car + trailer), rel=1e-14) == gentle.A
+        assert pytest.approx(p.eps - trailer * gentle.A / p.k_t, rel=1e-12) == gentle.D
+    edge = torque * F_0 / (trailer * car / (car + trailer)) / (torque / p.R_c / car)  # where the threshold is reached
+    below, above = steady(p, edge * (1.0 - 1e-12)), steady(p, edge * (1.0 + 1e-12))
+    assert pytest.approx(below.A, rel=1e-9) == above.A and pytest.approx(below.D, rel=1e-9) == above.D
+
+
 @pytest.mark.parametrize("figure", ["8", "10"])
 def test_it_satisfies_the_nonlinear_equations_of_motion(figure: str) -> None:
     """Rates at the steady state: all zero but a common deceleration, to the slip's share of the wheels' inertia."""
