@@ -1,5 +1,5 @@
 .DEFAULT_GOAL := help
-.PHONY: help run report test test-platforms fuzz fmu fmu-all ssp dist bench sanitize lint format lock clean
+.PHONY: help run report test test-platforms fuzz fmu fmu-all ssp dist bench stops sanitize lint format lock clean
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -55,6 +55,9 @@ $(READY_MADE)/fmi3/%.fmu: $(SOURCES)
 
 bench: $(READY) $(word 1,$(FMUS))  ## measure six seconds in C against what they may take (benchmarks/results.md)
 	$(BIN)/python -m benchmarks.six_seconds $(word 1,$(FMUS))
+
+stops: $(READY)  ## 200 stops from 30 m/s: steps, events, rest, way and energy of each (three minutes)
+	$(BIN)/python tests/fmu_build/runtime/stops.py
 
 sanitize: $(READY)  ## run the C drivers under AddressSanitizer and UndefinedBehaviorSanitizer
 	$(BIN)/python -m pytest tests/platforms/test_sanitized.py

@@ -15,7 +15,17 @@ from tests.unit import Unit
 Floats = NDArray[np.float64]
 
 VEHICLES = ("car", "trailer")
-PARTS = ("body.x", "body.v", "body.a", "wheel.omega", "wheel.tau", "tyre.F", "tyre.v_slip")
+PARTS = (
+    "body.x",
+    "body.v",
+    "body.a",
+    "wheel.omega",
+    "wheel.tau",
+    "wheel.tau_r",
+    "body.F_drag",
+    "tyre.F",
+    "tyre.v_slip",
+)
 DRAWBAR = ("compression", "v_rel", "F_h", "F_spring")
 NAMES = tuple(f"{v}.{p}" for v in VEHICLES for p in PARTS) + tuple(f"drawbar.{p}" for p in DRAWBAR)
 G_N = 9.80665
@@ -53,12 +63,16 @@ def in_drawbar(p: Parameters, x: Floats) -> Floats:
 
 def follow(unit: Unit, parameters: Parameters, grade: float, duration: float, h: float) -> Account:
     """Go on with a unit that has been started, and sample it every `h` (s)."""
-    count = round(duration / h)
     rows = [unit.get(*NAMES)]
-    for n in range(count):
+    for n in range(round(duration / h)):
         unit.slave.doStep(n * h, h)
         rows.append(unit.get(*NAMES))
-    values = dict(zip(NAMES, np.array(rows).T, strict=True))
+    return account(parameters, grade, h, np.array(rows))
+
+
+def account(parameters: Parameters, grade: float, h: float, samples: Floats) -> Account:
+    """Add up `samples`, rows of NAMES every `h` (s) from a run's start."""
+    values = dict(zip(NAMES, samples.T, strict=True))
     values["trailer.body.x"] = values["car.body.x"] + values["drawbar.compression"]
 
     def integral(power: Floats) -> Floats:
@@ -74,4 +88,6 @@ def follow(unit: Unit, parameters: Parameters, grade: float, duration: float, h:
         stored += M * G_N * np.sin(np.arctan(grade)) * of["body.x"]
         gone[f"{name} tyres"] = integral(of["tyre.F"] * of["tyre.v_slip"])
         gone[f"{name} brakes"] = integral(of["wheel.tau"] * of["wheel.omega"])
-    return Account(h * np.arange(count + 1), values, stored, gone)
+        gone[f"{name} rolling resistance"] = integral(of["wheel.tau_r"] * of["wheel.omega"])
+        gone[f"{name} drag"] = integral(of["body.F_drag"] * of["body.v"])
+    return Account(h * np.arange(len(samples)), values, stored, gone)

@@ -43,11 +43,25 @@ LIVELY = {
     "brake_torque": 1000.0, "C": 20.0, "eps": 0.01,
     "F_0": 100.0, "x_2": 0.01, "k_2": 8000.0, "x_3": 0.02, "k_3": 12e3, "travel": 0.035,
 }  # fmt: skip
-CHANGED = {"eps": 0.02, "compression_start": 0.005, "F_pull_max": 0.0, "mu": 0.3}
+CHANGED = {
+    "eps": 0.02,
+    "compression_start": 0.005,
+    "F_pull_max": 0.0,
+    "mu": 0.3,
+    "CdA_c": 0.7,
+    "CdA_t": 1.0,
+    "C_rr": 0.01,
+    "reverse_braking": 0.0,
+}
+BACKWARD = {"reverse_braking"}  # what matters there alone
 
 
 def changed(name: str) -> dict[str, float]:
     return {name: CHANGED.get(name, 1.1 * LIVELY.get(name, getattr(DATUM, name)))}
+
+
+def lively(name: str) -> dict[str, float]:
+    return {**LIVELY, "V_0": -40.0, "compression_start": 0.1} if name in BACKWARD else LIVELY
 
 
 def test_defaults_and_minima_are_those_of_the_python_parameters(unit: Unit) -> None:
@@ -62,18 +76,18 @@ def test_defaults_and_minima_are_those_of_the_python_parameters(unit: Unit) -> N
 
 @pytest.mark.parametrize("name", NAMES)
 def test_setting_a_parameter_at_the_start_moves_the_outputs(unit: Unit, name: str) -> None:
-    rerun(unit, LIVELY)
+    rerun(unit, lively(name))
     before = run(unit, 0, 200)
-    rerun(unit, {**LIVELY, **changed(name)})
+    rerun(unit, {**lively(name), **changed(name)})
     assert np.abs(run(unit, 0, 200) - before).max() > 1e-3
 
 
 @pytest.mark.parametrize("name", sorted(set(NAMES) - FIXED))
 def test_a_tunable_parameter_takes_effect_at_the_next_step(unit: Unit, name: str) -> None:
-    rerun(unit, LIVELY)
+    rerun(unit, lively(name))
     run(unit, 0, 100)
     undisturbed = run(unit, 100, 200)
-    rerun(unit, LIVELY)
+    rerun(unit, lively(name))
     run(unit, 0, 100)
     unit.set(**changed(name))
     assert np.abs(run(unit, 100, 200) - undisturbed).max() > 1e-3

@@ -53,6 +53,7 @@ STOPS = [  # brake torque (N.m), grade, changed parameters
     (2000.0, 0.1, {"C": 3200.0, "mu": 1.0}),
     (2000.0, -0.1, {"C": 0.0, "mu": 1.0, "eps": 0.1}),
     (1600.0, 0.0, {"C": 100.0, "mu": 0.3, "eps": 0.1}),
+    (1600.0, -0.05, {"C": 500.0, "mu": 0.8, "eps": 0.01, "CdA_c": 0.7, "CdA_t": 1.2, "C_rr": 0.015}),
     (2000.0, 0.0, {"C": 300.0, "mu": 1.0, **AS_SOLD}),
 ]
 
@@ -141,6 +142,25 @@ def test_braking_backward_is_the_mirror_of_braking_forward(unit: Unit, mu: float
         runs.append(sign * run(unit, 0.0, 8.0, "v_car", "v_trailer", "a_car", "slip_car", "car.body.x"))
     np.testing.assert_allclose(runs[1], runs[0], rtol=0.0, atol=1e-9)
     assert abs(runs[0][-1, 0]) < 1e-6 and runs[0][-1, 1] == pytest.approx(10.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.2, 1.0])
+def test_in_reverse_the_share_of_the_trailers_brakes_that_is_not_locked_out_acts(unit: Unit, share: float) -> None:
+    """For a moment: with all of it the trailer that pushes brakes itself ever harder, which is why it is locked out."""
+    start(unit, V_0=-10.0, compression_start=0.1, C=3200.0, reverse_braking=share)
+    torque, held = run(unit, 0.0, 0.3, "trailer_brake_torque", "linkage.brake_torque").T
+    assert held[0] > 1000.0
+    np.testing.assert_allclose(torque, -share * held, rtol=1e-12, atol=0.0)
+
+
+@pytest.mark.parametrize(("share", "C_rr", "bound"), [(1.0, 0.0, 1e-15), (0.0, 0.0, 1e-5), (0.0, 0.01, 1e-6)], ids=str)
+def test_the_last_swing(unit: Unit, share: float, C_rr: float, bound: float) -> None:
+    """Brakes that let go backward leave it to the damper, and to the rolling resistance."""
+    start(unit, brake_torque=2000.0, V_0=30.0, mu=1.0, reverse_braking=share, C_rr=C_rr)
+    speeds = np.abs(run(unit, 0.0, 25.0, "v_car", "v_trailer")).max(axis=1)
+    standstill = int(np.flatnonzero(speeds > 0.1)[-1])
+    print(f"{share:g} of the brakes backward, C_rr = {C_rr:g}: {speeds[standstill + 1000]:.1e} m/s after 10 s")
+    assert speeds[standstill + 1000] < bound
 
 
 def test_the_combination_brakes_in_reverse(unit: Unit) -> None:

@@ -2,12 +2,15 @@ within OverrunHitch;
 package Units "Physical quantities with their units and admissible ranges"
   type Mass = Real(final quantity="Mass", final unit="kg", min=1) "Mass";
   type MomentOfInertia = Real(final quantity="MomentOfInertia", final unit="kg.m2", min=1e-3) "Polar moment of inertia";
+  type Density = Real(final quantity="Density", final unit="kg/m3") "Density";
+  type Area = Real(final quantity="Area", final unit="m2", min=0) "Area";
   type Radius = Real(final quantity="Length", final unit="m", min=0.01) "Radius";
   type Position = Real(final quantity="Length", final unit="m", nominal=1) "Position along the road";
   type Length = Real(final quantity="Length", final unit="m") "Length";
   type Velocity = Real(final quantity="Velocity", final unit="m/s", nominal=1) "Velocity";
   type Acceleration = Real(final quantity="Acceleration", final unit="m/s2") "Acceleration";
   constant Acceleration g_n = 9.80665 "Standard acceleration of free fall";
+  constant Density rho_air = 1.225 "Density of air at sea level: ISO 2533 (ICAO standard atmosphere)";
   type Angle = Real(final quantity="Angle", final unit="rad") "Angle";
   type Time = Real(final quantity="Time", final unit="s") "Time";
   type Slowness = Real(final quantity="Slowness", final unit="s/m") "Inverse of a velocity";
@@ -22,7 +25,9 @@ package Units "Physical quantities with their units and admissible ranges"
   type SlipStiffness = Real(final quantity="Force", final unit="N", min=1) "Tyre force per unit slip";
   type TorquePerLength = Real(final quantity="TorquePerLength", final unit="N.m/m", min=0) "Torque per unit length";
   type Friction = Real(final quantity="CoefficientOfFriction", final unit="1", min=0.01) "Coefficient of friction";
+  type RollingResistance = Real(final quantity="RollingResistanceCoefficient", final unit="1", min=0) "Rolling resistance over load";
   type Grade = Real(final quantity="Grade", final unit="1") "Rise of the road over its horizontal run";
+  type Share = Real(final quantity="Share", final unit="1", min=0, max=1) "Share";
   type Slip = Real(final quantity="Slip", final unit="1") "Longitudinal slip";
   annotation(
     Icon(coordinateSystem(extent={{-100,-100},{100,100}}), graphics={

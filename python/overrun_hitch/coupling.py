@@ -23,8 +23,9 @@ Floats = NDArray[np.float64]
 FORCES = {"F_hitch": 1.0, "F_hitch_mean": 2.0, "F_hitch_hold": 3.0}  # output: value of applied_force
 TRAILER_OUTPUTS = ("compression", "v_rel", "v_trailer", "F_hitch", "coupling_energy", "ball.impulse", "ball.work")
 CAR_OUTPUTS = ("v_car", "a_car", "car.body.x")
-CAR_PARAMETERS = ("M_c", "I_c", "R_c", "C_kc", "V_0")
-TRAILER_PARAMETERS = tuple(name for name in Parameters.model_fields if name == "V_0" or name not in CAR_PARAMETERS)
+SHARED = ("mu", "C_rr", "V_0")
+CAR_PARAMETERS = ("M_c", "I_c", "R_c", "C_kc", "CdA_c", *SHARED)
+TRAILER_PARAMETERS = tuple(name for name in Parameters.model_fields if name in SHARED or name not in CAR_PARAMETERS)
 AGREED = 1e-10  # m/s: iterations end when the car's speed at the end of a step moves by less
 ITERATIONS = 50
 

@@ -109,6 +109,12 @@ class Parameters(Quantities):
     travel: float = quantity(1e3, "m", "drawbar compression at which it meets the buffer", ge=0.0)
     k_buffer: float = quantity(548e3, "N/m", "drawbar stiffness from there on", ge=0.0)
     mu: float = quantity(1e9, "1", "friction between tyres and road", ge=0.01)
+    CdA_c: float = quantity(0.0, "m2", "drag area of the car", ge=0.0)
+    CdA_t: float = quantity(0.0, "m2", "drag area of the trailer", ge=0.0)
+    C_rr: float = quantity(0.0, "1", "rolling resistance over load", ge=0.0)
+    reverse_braking: float = quantity(
+        1.0, "1", "share of the trailer's brake torque that acts backward", ge=0.0, le=1.0
+    )
     V_0: float = quantity(40.0, "m/s", "speed at the start")
     compression_start: float = quantity(0.0, "m", "drawbar compression at the start")
 

@@ -230,3 +230,25 @@ def test_bad_input(
     captured = capsys.readouterr()
     assert captured.out == "" and message in captured.err and captured.err.count("\n") == 1
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("mu", [1.0, 0.3])
+@pytest.mark.parametrize("eps", [0.0, 0.1])
+@pytest.mark.parametrize("C", [20.0, 500.0, 3200.0])
+def test_the_pair_comes_to_rest(pair: Pair, whole: HitchUnit, C: float, eps: float, mu: float) -> None:
+    """From 30 m/s and 10 s beyond, force to hold, 10 ms: it stops where the whole does, and stands."""
+    p = CASES["ii"].changed({"C": C, "eps": eps, "mu": mu, "V_0": 30.0, "CdA_c": 0.7, "CdA_t": 1.2, "C_rr": 0.01})
+    torque, duration = (2000.0, 16.0) if mu == 1.0 else (900.0, 24.0)
+    coupled = pair.run(BY_NAME["jacobi-hold"], p, torque, duration, 0.01, 1e-6)
+    whole.start(p, {"brake_torque": torque}, 1e-6)
+    for n in range(round(duration * 100)):
+        whole.step(n * 0.01, 0.01)
+    way = whole.get(["car.body.x"])[0]
+    assert all(np.isfinite(samples).all() for samples in coupled.values.values())
+    speeds = np.abs([coupled.values["v_car"], coupled.values["v_trailer"]]).max(axis=0)
+    standstill, found = np.flatnonzero(speeds > 0.1)[-1] * 0.01, coupled.values["car.body.x"][-1]
+    last = coupled.values["v_car"][-1], coupled.values["v_trailer"][-1]
+    print(f"C = {C:g}, eps = {eps:g}, mu = {mu:g}: {standstill:.2f} s, {found:.3f} m ({way:.3f} m), then {last} m/s")
+    assert standstill < duration - 5.0
+    assert found == pytest.approx(way, rel=1e-3)
+    assert speeds[-1] < 1e-6

@@ -13,6 +13,7 @@ equation
       Text(extent={{-100,100},{100,65}}, textColor={0,0,255}, textString="%name")}),
     Documentation(info="<html>
 <p>Torque proportional to the compression beyond <code>eps</code> (the paper's equation 6); none below and none in tension.
-In a drawbar with a threshold the linkage begins to act where the spring begins to give (<code>Drawbar.s_1</code>). It acts without delay, and in reverse too: there is no reversing lock-out.</p>
+In a drawbar with a threshold the linkage begins to act where the spring begins to give (<code>Drawbar.s_1</code>). It acts without delay. Whether it
+acts in reverse too is told by the wheel's <code>reverse_braking</code>.</p>
 </html>"));
 end BrakeLinkage;

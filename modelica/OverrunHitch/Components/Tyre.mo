@@ -4,6 +4,7 @@ model Tyre "Tyre whose force follows from longitudinal slip, limited by friction
   parameter Units.Radius R = 0.35 "Rolling radius";
   parameter Units.Mass M = 1000 "Mass that loads the tyre";
   parameter Units.Friction mu = 1e9 "Friction between tyre and road: largest force over load";
+  parameter Units.RollingResistance C_rr = 0 "Rolling resistance over load";
   parameter Units.Length sigma = 0.3 "Relaxation length: C_k over the stiffness of the tyre at rest";
   parameter Units.Velocity v_low = 0.5 "Below this speed the tyre's deflection counts instead of its slip";
   parameter Real zeta(final unit="1") = 0.5 "Damping ratio of the mass on the tyre that stands";
@@ -13,6 +14,7 @@ model Tyre "Tyre whose force follows from longitudinal slip, limited by friction
   Interfaces.Flange axle "Joined to the body" annotation(Placement(transformation(extent={{-10,90},{10,110}})));
   Interfaces.Hub hub "Joined to the wheel" annotation(Placement(transformation(extent={{-10,-10},{10,10}})));
   Interfaces.AccelerationInput g_z "Gravity onto the road" annotation(Placement(transformation(extent={{-120,-20},{-80,20}})));
+  Interfaces.TorqueOutput rolling_torque "Largest torque of the rolling resistance" annotation(Placement(transformation(extent={{90,-10},{110,10}})));
   Units.Velocity v "Speed of the axle, positive forward";
   Units.Velocity v_abs "Its magnitude";
   Units.Velocity v_slip "Slip speed, positive when braking a tyre that rolls forward";
@@ -40,6 +42,7 @@ equation
   der(u) = v_slip - v_fade*u/sigma;
   X = C_k*slip/(C_x*F_max);
   F = F_max*sin(C_x*atan(X - E_x*(X - atan(X)))) "C_k*slip, where it is small against F_max";
+  rolling_torque = C_rr*M*g_z*R;
   axle.f = F;
   hub.tau = -R*F;
   annotation(
@@ -61,7 +64,9 @@ vehicle on a slope without creeping. Its deflection <code>u</code> is that of a 
 force has its peak. From <code>v_low</code> down it takes over; above, it takes no part. The damping of the tyre that stands
 is artificial, as in Pacejka's own model for low speeds, and disappears at <code>v_low</code> too.</p>
 <p>Rejected: a slip over a speed that is kept from zero. It is regular as well, but it creeps on a slope.</p>
-<p>The tyre pulls the body back with <code>F</code> and spins the wheel forward with <code>R F</code>.</p>
+<p>The tyre pulls the body back with <code>F</code> and spins the wheel forward with <code>R F</code>. Its rolling resistance,
+<code>C_rr</code> times the load, is a torque against the turning of the wheel: friction, which <code>Wheel</code> applies as it
+applies that of the brake.</p>
 <p>Sources: H. B. Pacejka, <em>Tyre and Vehicle Dynamics</em>, 2nd ed. 2006: magic formula section 4.3, standstill section
 8.6, <code>C_x</code> and <code>E_x</code> table A3.1 (205/60R15 at 4 kN, its <code>mu</code> 1.21).</p>
 </html>"));

@@ -5,6 +5,8 @@ model Car "Car in front of somebody else's trailer (Sharp 1982)"
   parameter Units.Radius R_c = 0.35 "Wheel radius of the car";
   parameter Units.SlipStiffness C_kc = 400000 "Tyre force per unit slip, car";
   parameter Units.Friction mu = 1e9 "Friction between tyres and road; the paper's has no limit";
+  parameter Units.Area CdA_c = 0 "Drag area of the car (drag coefficient times frontal area); the paper's has none";
+  parameter Units.RollingResistance C_rr = 0 "Rolling resistance over load; the paper's has none";
   parameter Units.Velocity V_0 = 40 "Speed at the start";
   Interfaces.TorqueInput brake_torque(min=0) "Torque that the car's brakes can hold, on its lumped wheels: friction, against the rolling" annotation(Placement(transformation(extent={{-20,80},{20,120}}, rotation=-90)));
   Interfaces.ForceInput F_hitch "Hitch force on the car, positive forward: a pushing trailer gives a positive value" annotation(Placement(transformation(extent={{-140,-20},{-100,20}})));
@@ -13,7 +15,7 @@ model Car "Car in front of somebody else's trailer (Sharp 1982)"
   output Units.Acceleration a_car = car.body.a "Acceleration of the car, positive forward";
   output Units.Slip slip_car = car.tyre.slip "Longitudinal slip of the car's wheels, positive when braking";
   Components.HitchForce force "Hitch force" annotation(Placement(transformation(extent={{-60,-20},{-20,20}})));
-  Components.BrakedVehicle car(M=M_c, I=I_c, R=R_c, C_k=C_kc, V_0=V_0, mu=mu, final x_0=0) "Car" annotation(Placement(transformation(extent={{20,-20},{60,20}})));
+  Components.BrakedVehicle car(M=M_c, I=I_c, R=R_c, C_k=C_kc, V_0=V_0, mu=mu, CdA=CdA_c, C_rr=C_rr, final reverse_braking=1, final x_0=0) "Car" annotation(Placement(transformation(extent={{20,-20},{60,20}})));
   Components.Road road "Road" annotation(Placement(transformation(extent={{-80,70},{-60,90}})));
 equation
   connect(F_hitch, force.F) annotation(Line(points={{-120,0},{-60,0}}, color={0,0,127}));
@@ -37,7 +39,7 @@ equation
 rolls forward, <code>grade</code> uphill. <code>brake_torque</code> is what the brakes can hold: it acts against the rolling in
 both directions, and holds a wheel that has stopped.</p>
 <h2>Limits</h2>
-<p>No drag and no rolling resistance. From 0.5 m/s on the tyre force follows the slip without lag. With
+<p>By default no drag and no rolling resistance. From 0.5 m/s on the tyre force follows the slip without lag. With
 the default <code>mu</code> nothing limits it: hard braking and slips beyond about 0.1 need a true one.</p>
 <h2>Source</h2>
 <p>R. S. Sharp, <em>Longitudinal Oscillations of Vehicle/Trailer Combinations Induced by Overrun Braking</em>, Vehicle

@@ -23,6 +23,10 @@ model CarTrailer "Car and trailer with an overrun brake (Sharp 1982)"
   parameter Units.Length travel(min=0) = 1000 "Drawbar compression at which it meets the buffer";
   parameter Units.Stiffness k_buffer = 548000 "Drawbar stiffness from there on";
   parameter Units.Friction mu = 1e9 "Friction between tyres and road; the paper's has no limit";
+  parameter Units.Area CdA_c = 0 "Drag area of the car (drag coefficient times frontal area); the paper's has none";
+  parameter Units.Area CdA_t = 0 "Drag area of the trailer (drag coefficient times frontal area); the paper's has none";
+  parameter Units.RollingResistance C_rr = 0 "Rolling resistance over load; the paper's has none";
+  parameter Units.Share reverse_braking = 1 "Share of the trailer's brake torque that acts on wheels turning backward: 0 for a reversing lock-out; the paper's has none";
   parameter Units.Velocity V_0 = 40 "Speed of both vehicles at the start";
   parameter Units.Length compression_start = 0 "Drawbar compression at the start";
   Interfaces.TorqueInput brake_torque(min=0) "Torque that the car's brakes can hold, on its lumped wheels: friction, against the rolling" annotation(Placement(transformation(extent={{20,80},{60,120}}, rotation=-90)));
@@ -35,9 +39,9 @@ model CarTrailer "Car and trailer with an overrun brake (Sharp 1982)"
   output Units.Force F_hitch = car.hitch.f "Hitch force on the car, positive forward: a pushing trailer gives a positive value";
   output Units.Slip slip_car = car.tyre.slip "Longitudinal slip of the car's wheels, positive when braking";
   output Units.Slip slip_trailer = trailer.tyre.slip "Longitudinal slip of the trailer's wheels, positive when braking";
-  output Units.Torque trailer_brake_torque = linkage.brake_torque "Torque that the trailer's brakes can hold, on its lumped wheels";
-  Components.BrakedVehicle car(M=M_c, I=I_c, R=R_c, C_k=C_kc, V_0=V_0, mu=mu, final x_0=0) "Car" annotation(Placement(transformation(extent={{40,-20},{80,20}})));
-  Components.BrakedVehicle trailer(M=M_t, I=I_t, R=R_t, C_k=C_kt, V_0=V_0, mu=mu, x_0=compression_start) "Trailer" annotation(Placement(transformation(extent={{-80,-20},{-40,20}})));
+  output Units.Torque trailer_brake_torque = trailer.wheel.tau "Brake torque on the trailer's lumped wheels, positive when it slows wheels that roll forward";
+  Components.BrakedVehicle car(M=M_c, I=I_c, R=R_c, C_k=C_kc, V_0=V_0, mu=mu, CdA=CdA_c, C_rr=C_rr, final reverse_braking=1, final x_0=0) "Car" annotation(Placement(transformation(extent={{40,-20},{80,20}})));
+  Components.BrakedVehicle trailer(M=M_t, I=I_t, R=R_t, C_k=C_kt, V_0=V_0, mu=mu, CdA=CdA_t, C_rr=C_rr, reverse_braking=reverse_braking, x_0=compression_start) "Trailer" annotation(Placement(transformation(extent={{-80,-20},{-40,20}})));
   Components.Drawbar drawbar(k=k, k_t=k_t, C=C, eps=eps, F_pull_max=F_pull_max, rebound=rebound, F_0=F_0, x_2=x_2, k_2=k_2, x_3=x_3, k_3=k_3, travel=travel, k_buffer=k_buffer) "Drawbar" annotation(Placement(transformation(extent={{-20,-20},{20,20}})));
   Components.Road road "Road" annotation(Placement(transformation(extent={{-80,70},{-60,90}})));
   Components.BrakeLinkage linkage(r=r, eps=drawbar.s_1) "Linkage from drawbar to trailer brakes" annotation(Placement(transformation(extent={{-20,-70},{-60,-50}})));
@@ -70,8 +74,9 @@ equation
 <code>compression</code> is <code>x_t - x_c</code>, positive when the drawbar is pushed in. <code>F_hitch</code> is the
 force on the car, positive forward: a pushing trailer gives a positive value; it is minus the paper's F_h, which is
 positive in tension. <code>grade</code> is positive uphill. Slips and brake torques are positive when they brake a
-vehicle that rolls forward. <code>brake_torque</code> and <code>trailer_brake_torque</code> are what brakes can hold: they
-act against the rolling in both directions, and hold a wheel that has stopped. The paper's road is level,
+vehicle that rolls forward. <code>brake_torque</code> is what the car's brakes can hold: they
+act against the rolling in both directions, and hold a wheel that has stopped. <code>trailer_brake_torque</code> is what acts
+on the trailer's wheels. The paper's road is level,
 <code>grade = 0</code>.</p>
 <h2>Parameters</h2>
 <p>Masses, inertias, radii and tyre stiffnesses are the datum of the paper's section 7; <code>k</code> and <code>r</code>
@@ -84,7 +89,7 @@ that is stronger in <code>rebound</code>, a <code>travel</code> of 0.085 to 0.1 
 stiffness grows (<code>x_2</code>, <code>k_2</code>, <code>x_3</code>, <code>k_3</code>); by default all these are out of
 reach, as in the paper.</p>
 <h2>Limits</h2>
-<p>No drag, no rolling resistance, no reversing lock-out. From 0.5 m/s on the tyre force follows the slip without lag. With
+<p>By default no drag, no rolling resistance, no reversing lock-out (<code>CdA</code>, <code>C_rr</code>, <code>reverse_braking</code>). From 0.5 m/s on the tyre force follows the slip without lag. With
 the default <code>mu</code> nothing limits it: hard braking and slips beyond about 0.1 need a true one.</p>
 <h2>Source</h2>
 <p>R. S. Sharp, <em>Longitudinal Oscillations of Vehicle/Trailer Combinations Induced by Overrun Braking</em>, Vehicle

@@ -49,6 +49,30 @@ def stop(library: Library, **values: float) -> tuple[np.ndarray, list[Counters]]
         unit.free()
 
 
+@pytest.mark.parametrize("seed", range(12))
+def test_rough_input_around_standstill(car_trailer: Library, seed: int) -> None:
+    """A minute of brake torques and grades that jump every 0.1 s, options at random: no error, few steps and events."""
+    random = np.random.default_rng(seed)
+    unit = Unit(car_trailer, logging=True)
+    try:
+        assert unit.setup() == OK
+        options = {"C_rr": random.choice([0.0, 0.01]), "reverse_braking": random.choice([0.0, 1.0]), "CdA_t": 1.0}
+        drawbar = {"C": random.choice([0.0, 100.0, 500.0]), "eps": random.choice([0.0, 0.02, 0.1])}
+        assert unit.set(V_0=random.uniform(-3.0, 3.0), mu=random.choice([0.3, 1.0]), **options, **drawbar) == OK
+        assert unit.initialize() == OK
+        for n in range(600):
+            grade = random.uniform(-0.1, 0.1) + 0.02 * float(np.clip(unit.get("v_car")[0], -5.0, 5.0))
+            assert unit.set(brake_torque=random.choice([0.0, random.uniform(0.0, 4000.0)]), grade=grade) == OK
+            for m in range(10):
+                assert unit.step(STEP, (10 * n + m) * STEP) == OK, unit.log
+            assert np.isfinite(unit.get(*NAMES)).all()
+        print(f"at {unit.get('v_car')[0]:.2f} m/s: {unit.counters()}")
+        assert unit.counters().events < 12 * 60
+        assert tries(unit.counters()) < 5 * 6000
+    finally:
+        unit.free()
+
+
 def check_stop(library: Library, rest_within: float, rate: float = 12.0, dying: float = 0.0, **values: float) -> None:
     """Rest is reached `rest_within` so many s of standstill, and kept.
 
