@@ -16,6 +16,7 @@ from overrun_hitch.commands.paper import paper
 from overrun_hitch.commands.report import report
 from overrun_hitch.commands.run import run
 from overrun_hitch.commands.stability import stability
+from overrun_hitch.commands.sweep import sweep
 from overrun_hitch.parameters import HitchError
 
 app = typer.Typer(
@@ -65,5 +66,6 @@ app.command()(run)
 app.command()(stability)
 app.command()(crosscheck)
 app.command()(couple)
+app.command()(sweep)
 app.command()(paper)
 app.command()(report)

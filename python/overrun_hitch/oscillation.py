@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
+from scipy.optimize import leastsq
 
 Floats = NDArray[np.float64]
 
@@ -73,10 +73,10 @@ def measure(time: Floats, trace: Floats) -> Oscillation | NoOscillation:
         return NoOscillation("the trace does not oscillate")
     best = min(starts, key=lambda unknowns: float(np.sum(_remainder(unknowns, window, scaled) ** 2)))
     scale = np.array([1.0, abs(best[1]), 1.0, abs(best[1])])
-    fit = least_squares(
-        _remainder, best, args=(window, scaled), jac="3-point", x_scale=scale, xtol=1e-12, ftol=1e-14, gtol=1e-12
+    found, _ = leastsq(
+        _remainder, best, (window, scaled), _slopes, diag=1.0 / scale, xtol=1e-12, ftol=1e-14, gtol=1e-12
     )
-    return _result(window, scaled, swing, fit.x)
+    return _result(window, scaled, swing, found)
 
 
 def _result(window: Floats, scaled: Floats, swing: float, unknowns: Floats) -> Oscillation | NoOscillation:
@@ -112,13 +112,31 @@ def _basis(window: Floats, unknowns: Floats) -> Floats:
     exponent = growth * window + 0.5 * growth_slope * window**2
     envelope = np.exp(exponent - exponent.max())
     angle = omega * window + 0.5 * omega_slope * window**2
-    return np.column_stack([np.ones_like(window), envelope * np.cos(angle), envelope * np.sin(angle)])
+    return np.asarray(np.array([np.ones_like(window), envelope * np.cos(angle), envelope * np.sin(angle)]).T)
 
 
 def _remainder(unknowns: Floats, window: Floats, scaled: Floats) -> Floats:
     """The trace less its projection on the basis: the variable projection functional."""
     orthonormal, _ = np.linalg.qr(_basis(window, unknowns))
     return np.asarray(scaled - orthonormal @ (orthonormal.T @ scaled))
+
+
+def _slopes(unknowns: Floats, window: Floats, scaled: Floats) -> Floats:
+    """Derivatives (n, 4) of `_remainder` by the unknowns: both terms of Golub and Pereyra (1973)."""
+    basis = _basis(window, unknowns)
+    orthonormal, triangle = np.linalg.qr(basis)
+    share = orthonormal.T @ scaled
+    inverse = np.linalg.inv(triangle)
+    _, a, b = inverse @ share
+    left = scaled - orthonormal @ share
+    _, cosine, sine = basis.T
+    weights = np.array([window, 0.5 * window**2])  # of growth rate and frequency, of their slopes
+    # Growth scales a cos + b sin, frequency turns it: cos becomes -sin, and sin becomes cos.
+    moved = np.array([a * cosine + b * sine, b * cosine - a * sine])[None] * weights[:, None]
+    (c, s), (c_slope, s_slope) = (weights * left) @ basis[:, 1:]
+    turned_away = np.array([[0.0, 0.0, 0.0, 0.0], [c, -s, c_slope, -s_slope], [s, c, s_slope, c_slope]])
+    columns = moved.reshape(4, -1).T
+    return np.asarray(orthonormal @ (orthonormal.T @ columns - inverse.T @ turned_away) - columns)
 
 
 def _starts(window: Floats, scaled: Floats) -> list[Floats]:

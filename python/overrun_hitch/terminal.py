@@ -10,7 +10,18 @@ from pathlib import Path
 
 import xarray as xr
 from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    ProgressColumn,
+    Task,
+    TaskID,
+    TextColumn,
+    TimeRemainingColumn,
+)
 from rich.table import Table
+from rich.text import Text
 
 from overrun_hitch.judged import Judged
 from overrun_hitch.parameters import Scenario
@@ -40,6 +51,31 @@ def patience(what: str) -> Iterator[Callable[[str], None]]:
         timer.cancel()
         timer.join()  # it may be starting the spinner at this moment
         status.stop()
+
+
+class _Rate(ProgressColumn):
+    def render(self, task: Task) -> Text:
+        return Text("" if task.speed is None else f"{task.speed:.0f} runs/s")
+
+
+@contextmanager
+def counting(what: str) -> Iterator[Callable[[int, int, int], None]]:
+    """Show a bar with rate and time left on stderr, where that is a terminal.
+
+    Gives a function that is told runs done, failed ones among them, and runs in all.
+    """
+    ahead = TimeRemainingColumn(), TextColumn("{task.description}")
+    columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), _Rate(), *ahead)
+    console = Console(stderr=True)
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
+        tasks: list[TaskID] = []
+
+        def told(done: int, failed: int, runs: int) -> None:
+            if not tasks:
+                tasks.append(progress.add_task("", total=runs, completed=done))
+            progress.update(tasks[0], completed=done, description=f"{failed} failed" if failed else "")
+
+        yield told
 
 
 def show(scenario: Scenario, result: xr.Dataset, rows: Sequence[Judged], paths: Sequence[Path]) -> None:

@@ -13,6 +13,7 @@ import tempfile
 import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ from fmpy.fmi2 import (
     fmi2CallbackFunctions,
     fmi2CallbackLoggerTYPE,
     fmi2OK,
+    fmi2Warning,
 )
 from numpy.typing import NDArray
 
@@ -33,8 +35,32 @@ from overrun_hitch.results import VARIABLES
 Floats = NDArray[np.float64]
 
 
+class StartRefused(HitchError):
+    """The unit could not start a run with these values; the message is its own."""
+
+
 class StepRefused(HitchError):
     """The unit could not make a step; the message is its own."""
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A real parameter or input as an FMU describes it."""
+
+    unit: str  # "" where the FMU gives none
+    description: str
+    low: float  # -inf: no limit
+    high: float
+
+
+@dataclass(frozen=True)
+class Description:
+    """What an FMU file says of itself, without being loaded."""
+
+    guid: str
+    parameters: Mapping[str, Variable]
+    inputs: Mapping[str, Variable]
+    interpolates: bool  # takes slopes of its inputs
 
 
 class Unit:
@@ -43,7 +69,7 @@ class Unit:
     From `opened`. What the FMU refuses becomes a HitchError in its own words where `opened` ends.
     """
 
-    def __init__(self, name: str, description: Any, slave: Any, messages: Sequence[str]) -> None:
+    def __init__(self, name: str, description: Any, slave: Any, messages: list[str]) -> None:
         self.name = name
         self._messages = messages
         self.guid = str(description.guid)
@@ -53,14 +79,18 @@ class Unit:
         self._fresh = True
 
     def start_with(self, values: Mapping[str, float], relative_tolerance: float) -> None:
-        """From any state to t = 0 of a new run with these parameters and inputs (SI units)."""
-        if not self._fresh:
-            self._slave.reset()
-        self._fresh = False
-        self.set(values)
-        self._slave.setupExperiment(tolerance=relative_tolerance, startTime=0.0)
-        self._slave.enterInitializationMode()
-        self._slave.exitInitializationMode()
+        """From any state to t = 0 of a new run with these parameters and inputs (SI units). StartRefused if not."""
+        self._messages.clear()  # those of the run before
+        try:
+            if not self._fresh:
+                self._slave.reset()
+            self._fresh = False
+            self.set(values)
+            self._slave.setupExperiment(tolerance=relative_tolerance, startTime=0.0)
+            self._slave.enterInitializationMode()
+            self._slave.exitInitializationMode()
+        except FMICallException as error:
+            raise StartRefused(_refusal(self.name, self._messages, error)) from None
 
     def set(self, values: Mapping[str, float]) -> None:
         """Set inputs, and during a run tunable parameters, by name (SI units)."""
@@ -70,6 +100,15 @@ class Unit:
         """How inputs change during the next step, by name, in their units per second."""
         references = [self._references[name] for name in slopes]
         self._slave.setRealInputDerivatives(references, [1] * len(references), list(slopes.values()))
+
+    def change(self, values: Mapping[str, float], slopes: Mapping[str, float]) -> None:
+        """Set inputs, and how they change during the next step. StepRefused if the unit doesn't take them."""
+        try:
+            self.set(values)
+            if slopes:
+                self.set_slopes(slopes)
+        except FMICallException as error:
+            raise StepRefused(_refusal(self.name, self._messages, error)) from None
 
     def get(self, names: Sequence[str]) -> list[float]:
         """Values by name (SI units)."""
@@ -81,6 +120,11 @@ class Unit:
             self._slave.doStep(time, size)
         except FMICallException as error:
             raise StepRefused(_refusal(self.name, self._messages, error)) from None
+
+    def sampler(self, names: Sequence[str], points: Floats) -> Sampler:
+        """For many runs through the same `points` (n,) in s: see Sampler."""
+        references = [self._references[name] for name in names]
+        return Sampler(self._slave, references, points, lambda error: _refusal(self.name, self._messages, error))
 
     @contextmanager
     def saved(self) -> Iterator[Callable[[], None]]:
@@ -99,6 +143,44 @@ class Unit:
         return states, np.array(columns, dtype=np.float64).T
 
 
+class Sampler:
+    """Steps a started unit through communication points and reads the same variables at each, run after run.
+
+    The same calls as Unit.step and Unit.get, with arguments made once: 100 points cost 0.1 ms beside the unit's own
+    work instead of 1.5 ms through fmpy's wrappers.
+    """
+
+    def __init__(
+        self, slave: Any, references: Sequence[int], points: Floats, refusal: Callable[[Exception], str]
+    ) -> None:
+        count = len(references)
+        self._slave = slave
+        self._refusal = refusal
+        self._references = (ctypes.c_uint * count)(*references)
+        self._table: Floats = np.empty((len(points), count))
+        self._rows = [(ctypes.c_double * count).from_buffer(row) for row in self._table]
+        self._times = points.tolist()
+
+    def run(self, before_step: Mapping[int, Callable[[], None]] | None = None) -> Floats:
+        """Values (points, names) in SI units, in a table that the next run overwrites.
+
+        `before_step` is called before the steps with these numbers, to change inputs. StepRefused as for Unit.step.
+        """
+        do_step, get_real = self._slave.dll.fmi2DoStep, self._slave.dll.fmi2GetReal
+        component, references, count = self._slave.component, self._references, len(self._references)
+        self._check("fmi2GetReal", get_real(component, references, count, self._rows[0]))
+        for step, (now, then, row) in enumerate(zip(self._times, self._times[1:], self._rows[1:], strict=False)):
+            if before_step and step in before_step:
+                before_step[step]()
+            self._check("fmi2DoStep", do_step(component, now, then - now, 1))
+            self._check("fmi2GetReal", get_real(component, references, count, row))
+        return self._table
+
+    def _check(self, function: str, status: int) -> None:
+        if status > fmi2Warning:
+            raise StepRefused(self._refusal(FMICallException(function, status)))
+
+
 class HitchUnit(Unit):
     """CarTrailer.fmu, or another tool's export of it."""
 
@@ -112,11 +194,34 @@ class HitchUnit(Unit):
 
 
 @contextmanager
-def opened_unit(fmu: Path) -> Iterator[HitchUnit]:
-    """CarTrailer.fmu, see `opened`. HitchError also for an FMU that has not its variables."""
+def opened_unit(fmu: Path, folder: Path | None = None) -> Iterator[HitchUnit]:
+    """CarTrailer.fmu, see `opened`. HitchError also for an FMU that has not its variables.
+
+    It is unpacked within `folder`, or where the system keeps temporary files.
+    """
     needed = [*VARIABLES, *Parameters.model_fields, "brake_torque"]
-    with _opened(fmu, needed, "a car and trailer") as (description, slave, messages):
+    with _opened(fmu, needed, "a car and trailer", folder) as (description, slave, messages):
         yield HitchUnit(fmu.name, description, slave, messages)
+
+
+def described(fmu: Path) -> Description:
+    """What the FMU file says of its parameters and inputs. HitchError for a file that is none or of another kind."""
+    with _unpacked(fmu) as (description, _):
+        tables = {
+            causality: {
+                variable.name: Variable(
+                    unit=variable.unit or "",
+                    description=variable.description or variable.name,
+                    low=-np.inf if variable.min is None else float(variable.min),
+                    high=np.inf if variable.max is None else float(variable.max),
+                )
+                for variable in description.modelVariables
+                if variable.type == "Real" and variable.causality == causality
+            }
+            for causality in ("parameter", "input")
+        }
+        interpolates = bool(description.coSimulation.canInterpolateInputs)
+        return Description(str(description.guid), tables["parameter"], tables["input"], interpolates)
 
 
 @contextmanager
@@ -131,8 +236,10 @@ def opened(fmu: Path, needed: Sequence[str], what: str) -> Iterator[Unit]:
 
 
 @contextmanager
-def _opened(fmu: Path, needed: Sequence[str], what: str) -> Iterator[tuple[Any, Any, list[str]]]:
-    with _unpacked(fmu) as (description, folder):
+def _opened(
+    fmu: Path, needed: Sequence[str], what: str, within: Path | None = None
+) -> Iterator[tuple[Any, Any, list[str]]]:
+    with _unpacked(fmu, within) as (description, folder):
         names = {variable.name for variable in description.modelVariables}
         missing = [name for name in needed if name not in names]
         if missing:
@@ -142,11 +249,11 @@ def _opened(fmu: Path, needed: Sequence[str], what: str) -> Iterator[tuple[Any, 
 
 
 @contextmanager
-def _unpacked(fmu: Path) -> Iterator[tuple[Any, str]]:
+def _unpacked(fmu: Path, within: Path | None = None) -> Iterator[tuple[Any, str]]:
     """The model description of an FMU that this machine can run, and the folder it is unpacked in while needed."""
     if not fmu.is_file():
         raise HitchError(f"{fmu} is not there: an FMU file is needed")
-    with tempfile.TemporaryDirectory(prefix="hitch-") as folder:
+    with tempfile.TemporaryDirectory(prefix="hitch-", dir=within) as folder:
         try:
             description = fmpy.read_model_description(str(fmu))
             with zipfile.ZipFile(fmu) as archive:

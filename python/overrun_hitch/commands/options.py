@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import re
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
@@ -12,13 +11,8 @@ from typing import Annotated, Any
 import typer
 
 from overrun_hitch.parameters import HitchError, Parameters
+from overrun_hitch.toml_file import read_toml
 
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
-
-LONGEST_FILE = 1_000_000  # bytes; all parameters together need 300
 LONGEST_STEM = 120  # characters; file systems allow 255 bytes with suffix
 
 SetOption = Annotated[list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a parameter (SI).")]
@@ -49,7 +43,7 @@ def parameters_of(file: Path) -> dict[str, float]:
     HitchError, naming the file, where it can't be read, is no TOML, or holds anything but parameters and numbers in
     their ranges.
     """
-    table = _toml(file)
+    table = read_toml(file)
     if "parameters" in table:
         outside = next((name for name in table if name != "parameters"), None)
         if outside is not None:
@@ -68,21 +62,6 @@ def parameters_of(file: Path) -> dict[str, float]:
     except HitchError as error:
         raise HitchError(f"{file}: {error}") from None
     return {name: float(getattr(checked, name)) for name in table}
-
-
-def _toml(file: Path) -> dict[str, Any]:
-    try:
-        with file.open("rb") as stream:
-            content = stream.read(LONGEST_FILE + 1)
-    except OSError as error:
-        raise HitchError(f"cannot read {file}: {error.strerror or error}") from None
-    if len(content) > LONGEST_FILE:
-        raise HitchError(f"{file} is longer than {LONGEST_FILE} bytes: no file of parameters")
-    try:
-        table: dict[str, Any] = tomllib.loads(content.decode("utf-8"))
-    except (ValueError, RecursionError) as error:
-        raise HitchError(f"{file} is not TOML, such as k = 5480.0: {error}") from None
-    return table
 
 
 def name_with(name: str, before: Parameters, after: Parameters, others: Mapping[str, float] | None = None) -> str:

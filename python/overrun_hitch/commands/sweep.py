@@ -1,0 +1,55 @@
+"""`hitch sweep`: many runs, on all cores or a cluster."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from overrun_hitch.commands.options import FmuOption, chosen_fmu, file_stem
+from overrun_hitch.parameters import HitchError
+
+SchedulerOption = Annotated[
+    str | None, typer.Option(metavar="ADDRESS", help="A running Dask scheduler (tcp://host:8786).")
+]
+WorkersOption = Annotated[int | None, typer.Option(help="Processes on this machine (one for each core).")]
+
+
+def sweep(
+    spec: Annotated[Path, typer.Argument(metavar="SPEC.toml", help="What to run: see docs/sweep.md.")],
+    scheduler: SchedulerOption = None,
+    workers: WorkersOption = None,
+    map_: Annotated[
+        list[str] | None,
+        typer.Option("--map", metavar="METRIC", help="Draw this metric over the two axes of the grid."),
+    ] = None,
+    fmu: FmuOption = None,
+    output: Annotated[Path, typer.Option(help="Folder for the files written.")] = Path("build/sweep"),
+) -> int:
+    """Run every combination that SPEC.toml asks for and write metrics, on request trajectories, as a Zarr store.
+
+    The same command goes on with a sweep that was interrupted.
+    """
+    # Imported here, because Dask and xarray would slow down `hitch --help` and wrong options.
+    from overrun_hitch import figures, sweep_figures, sweep_table, terminal
+    from overrun_hitch.sweep_engine import run_plan
+    from overrun_hitch.sweep_plan import planned
+    from overrun_hitch.sweep_spec import read_spec
+
+    asked = read_spec(spec)
+    if asked.fmus and fmu:
+        raise HitchError(f"--fmu and the fmus of {spec} exclude each other")
+    fmus = [Path(path) for path in asked.fmus] or [chosen_fmu(fmu)]
+    plan = planned(asked, fmus)
+    for metric in map_ or ():
+        sweep_figures.check_map(plan, metric)
+    stem = output / file_stem(asked.name)
+    store = stem.with_name(f"{stem.name}.zarr")
+    with terminal.counting("Running") as told:
+        result = run_plan(plan, store, scheduler=scheduler, workers=workers, progress=told)
+    paths = [store]
+    for metric in map_ or ():
+        paths += figures.save(sweep_figures.draw_map(result, metric), stem.with_name(f"{stem.name}-{metric}"))
+    sweep_table.show(asked.name, result, paths)
+    return 1 if sweep_table.failures(result) else 0
