@@ -12,9 +12,11 @@ import typer
 
 from overrun_hitch.commands.couple import couple
 from overrun_hitch.commands.crosscheck import crosscheck
+from overrun_hitch.commands.optimise import optimise
 from overrun_hitch.commands.paper import paper
 from overrun_hitch.commands.report import report
 from overrun_hitch.commands.run import run
+from overrun_hitch.commands.sensitivity import sensitivity
 from overrun_hitch.commands.stability import stability
 from overrun_hitch.commands.sweep import sweep
 from overrun_hitch.parameters import HitchError
@@ -67,5 +69,7 @@ app.command()(stability)
 app.command()(crosscheck)
 app.command()(couple)
 app.command()(sweep)
+app.command()(sensitivity)
+app.command()(optimise)
 app.command()(paper)
 app.command()(report)

@@ -113,10 +113,14 @@ def _trailer_brake_delay(runs: Traces) -> Floats:
     later = rolls & (np.cumsum(rolls, axis=1) > 0.5 * rolls.sum(axis=1)[:, None])
     with np.errstate(invalid="ignore"):
         asymptote = (torque * later).sum(axis=1) / later.sum(axis=1)
-    fine = _refined(runs.time, torque, np.gradient(torque, runs.time, axis=1))
-    reached = fine >= RESPONDED * asymptote[:, None]
+    excess = _refined(runs.time, torque, np.gradient(torque, runs.time, axis=1)) - RESPONDED * asymptote[:, None]
+    reached = excess >= 0.0
+    row, after = np.arange(len(torque)), reached.argmax(axis=1)
+    before = np.maximum(after - 1, 0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        share = np.where(after > 0, excess[row, before] / (excess[row, before] - excess[row, after]), 0.0)
     step = (runs.time[1] - runs.time[0]) / FINE
-    return np.where(reached.any(axis=1) & (asymptote > 0.0), reached.argmax(axis=1) * step, np.nan)
+    return np.where(reached.any(axis=1) & (asymptote > 0.0), (before + share) * step, np.nan)
 
 
 @dataclass(frozen=True)
@@ -139,9 +143,11 @@ METRICS: Mapping[str, Metric] = {
     "peak_jerk": Metric(
         "m/s3", f"largest jerk of the rolling car, mean over an output step, from {TAKEN_UP:g} s on", _peak_jerk
     ),
-    "stopping_distance": Metric("m", "distance to standstill; none where the run ends before", _stopping_distance),
+    "stopping_distance": Metric("m", "distance to standstill, none where the run ends before", _stopping_distance),
     "trailer_brake_delay": Metric(
-        "s", f"time to {RESPONDED:.0%} of the trailer's mean brake torque in the later half", _trailer_brake_delay
+        "s",
+        f"delay of the trailer's brakes, to {RESPONDED:.0%} of their mean torque in the later half of the run",
+        _trailer_brake_delay,
     ),
 }
 

@@ -25,6 +25,7 @@ Floats = NDArray[np.float64]
 FEWEST_PERIODS = 2.0
 FEWEST_SAMPLES_A_PERIOD = 4.0
 PENCIL_SAMPLES = 300  # enough for a start, and keeps the singular value decomposition at milliseconds
+MOST_TRIALS = 200  # of the fit; what oscillates needs 10 to 30
 PENCIL_ORDERS = (3, 5, 7)  # offset and one, two or three pairs: a trace that is no clean sine has harmonics
 
 
@@ -73,9 +74,10 @@ def measure(time: Floats, trace: Floats) -> Oscillation | NoOscillation:
         return NoOscillation("the trace does not oscillate")
     best = min(starts, key=lambda unknowns: float(np.sum(_remainder(unknowns, window, scaled) ** 2)))
     scale = np.array([1.0, abs(best[1]), 1.0, abs(best[1])])
-    found, _ = leastsq(
-        _remainder, best, (window, scaled), _slopes, diag=1.0 / scale, xtol=1e-12, ftol=1e-14, gtol=1e-12
-    )
+    found = leastsq(
+        _remainder, best, (window, scaled), _slopes, diag=1.0 / scale, maxfev=MOST_TRIALS,
+        xtol=1e-12, ftol=1e-14, gtol=1e-12, full_output=True,
+    )[0]  # fmt: skip
     return _result(window, scaled, swing, found)
 
 

@@ -8,18 +8,23 @@ from __future__ import annotations
 
 import itertools
 import logging
+import signal
 import tempfile
 import uuid
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
+from multiprocessing import resource_tracker
 from pathlib import Path
 from typing import Any
 
+import dask
 import xarray as xr
 from dask.system import CPU_COUNT
 from distributed import Client, Future, KilledWorker, LocalCluster, as_completed
 from distributed.comm import CommClosedError
+from distributed.utils import silence_logging_cmgr
+from tornado.ioloop import PeriodicCallback
 
 from overrun_hitch.parameters import HitchError
 from overrun_hitch.sweep_job import Batch, Done, Job
@@ -30,7 +35,9 @@ from overrun_hitch.sweep_worker import Runners, run_batch
 
 LOOPBACK = "127.0.0.1"
 AHEAD = 2  # batches for each thread of a worker: one under way, one at hand
-PATIENCE = 30.0  # s, for a scheduler or its workers to answer
+PATIENCE = 10.0  # s, for a scheduler to answer, or to answer again
+WORKERS_PATIENCE = 60.0  # s, for the first worker
+LOST = "5s"  # after which a worker that is gone is replaced
 WORKER_DIED = "the worker process died in this run, and again when it was repeated"
 
 Progress = Callable[[int, int, int], object]  # told runs done, failed ones among them, runs in all
@@ -111,31 +118,53 @@ class _Tally:
 @contextmanager
 def _client(scheduler: str | None, workers: int) -> Iterator[Client]:
     """Connected to `scheduler`, or to a cluster of our own that ends with the block."""
-    if scheduler is not None:
-        try:
-            client = Client(scheduler, timeout=PATIENCE, set_as_default=False)
-        except (OSError, ValueError, TimeoutError) as error:
-            raise HitchError(f"no Dask scheduler answers at {scheduler!r:.80}: {error}") from None
-        with client:
-            try:
-                client.wait_for_workers(1, timeout=PATIENCE)
-            except TimeoutError:
-                raise HitchError(f"the scheduler at {scheduler} has no worker within {PATIENCE:g} s") from None
-            yield client
-        return
+    with silence_logging_cmgr(logging.CRITICAL):  # what the user is to know, we say
+        if scheduler is None:
+            with _local_cluster(workers) as cluster, Client(cluster, set_as_default=False) as client:
+                yield client
+        else:
+            with _connected(scheduler) as client:
+                yield client
+
+
+@contextmanager
+def _local_cluster(workers: int) -> Iterator[LocalCluster]:
+    resource_tracker.ensure_running()  # where a process is made first, this would undo what _prepare does
     with (
-        tempfile.TemporaryDirectory(prefix="hitch-sweep-") as folder,
+        tempfile.TemporaryDirectory(prefix="hitch-sweep-", ignore_cleanup_errors=True) as folder,
+        dask.config.set({"temporary-directory": folder, "distributed.deploy.lost-worker-timeout": LOST}),
         LocalCluster(
-            n_workers=workers,
+            n_workers=0,
             threads_per_worker=1,
             host=LOOPBACK,
             dashboard_address=f"{LOOPBACK}:0",
             worker_dashboard_address=f"{LOOPBACK}:0",
-            local_directory=folder,
-            silence_logs=logging.CRITICAL,
+            silence_logs=logging.CRITICAL,  # of the workers as well
         ) as cluster,
-        Client(cluster, set_as_default=False) as client,
     ):
+        cluster.sync(_prepare, cluster, workers)
+        yield cluster
+
+
+async def _prepare(cluster: LocalCluster, workers: int) -> None:
+    """In the thread that makes worker processes."""
+    # They inherit this, so Ctrl-C does not reach them: this process ends them.
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    cluster.scale(workers)
+    # A worker that dies while it starts is given up by Dask, and missed here.
+    keeper = PeriodicCallback(lambda: cluster.scale(workers), 1000.0)
+    cluster.periodic_callbacks["keep the number of workers"] = keeper
+    keeper.start()
+
+
+@contextmanager
+def _connected(scheduler: str) -> Iterator[Client]:
+    try:
+        client = Client(scheduler, timeout=PATIENCE, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise HitchError(f"no Dask scheduler answers at {scheduler!r:.80}: {error}") from None
+    with client:
         yield client
 
 
@@ -172,6 +201,7 @@ class _Crew:
         self._name = f"hitch-sweep-{uuid.uuid4().hex}"
 
     def __enter__(self) -> _Crew:
+        self._client.wait_for_workers(1, timeout=WORKERS_PATIENCE)
         self._client.register_plugin(Runners(self._job), name=self._name)
         return self
 

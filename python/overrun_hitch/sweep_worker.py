@@ -41,20 +41,23 @@ class Runner:
     def __init__(self, job: Job, folder: Path | None = None) -> None:
         self._job = job
         self._folder = tempfile.TemporaryDirectory(prefix="hitch-", dir=folder)
+        self._busy = threading.Lock()  # who closes may be another thread
         self._stacks: dict[int, ExitStack] = {}
         self._benches: dict[int, _Bench] = {}
 
     def close(self) -> None:
         """Free all instances and remove what was unpacked."""
-        for place in list(self._benches):
-            self._close(place)
-        self._folder.cleanup()
+        with self._busy:
+            for place in list(self._benches):
+                self._close(place)
+            self._folder.cleanup()
 
     def run(self, batch: Batch) -> Done:
         """Run all of them; what a unit refuses is told in `messages`."""
         job = self._job
         traces = np.full((len(VARIABLES), len(batch), len(job.points)), np.nan)
-        messages = [self._run_one(batch, run, traces) for run in range(len(batch))]
+        with self._busy:
+            messages = [self._run_one(batch, run, traces) for run in range(len(batch))]
         good = np.array([not message for message in messages], dtype=np.bool_)
         named = dict(zip(VARIABLES, traces, strict=True))
         metrics = {name: np.full(len(batch), np.nan) for name in job.metrics}
