@@ -37,7 +37,10 @@ LOOPBACK = "127.0.0.1"
 AHEAD = 2  # batches for each thread of a worker: one under way, one at hand
 PATIENCE = 10.0  # s, for a scheduler to answer, or to answer again
 WORKERS_PATIENCE = 60.0  # s, for the first worker
-LOST = "5s"  # after which a worker that is gone is replaced
+SETTINGS = {
+    "distributed.deploy.lost-worker-timeout": "5s",  # after which a worker that is gone is replaced
+    "distributed.worker.profile.enabled": False,  # looks into the worker every 10 ms
+}
 WORKER_DIED = "the worker process died in this run, and again when it was repeated"
 
 Progress = Callable[[int, int, int], object]  # told runs done, failed ones among them, runs in all
@@ -132,7 +135,7 @@ def _local_cluster(workers: int) -> Iterator[LocalCluster]:
     resource_tracker.ensure_running()  # where a process is made first, this would undo what _prepare does
     with (
         tempfile.TemporaryDirectory(prefix="hitch-sweep-", ignore_cleanup_errors=True) as folder,
-        dask.config.set({"temporary-directory": folder, "distributed.deploy.lost-worker-timeout": LOST}),
+        dask.config.set({"temporary-directory": folder, **SETTINGS}),
         LocalCluster(
             n_workers=0,
             threads_per_worker=1,

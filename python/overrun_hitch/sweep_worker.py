@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 from distributed import WorkerPlugin, get_worker
 from numpy.typing import NDArray
-from threadpoolctl import threadpool_limits
 
 from overrun_hitch.metrics import NEEDED, Traces, measured
 from overrun_hitch.profiles import Profile
@@ -61,10 +60,9 @@ class Runner:
         good = np.array([not message for message in messages], dtype=np.bool_)
         named = dict(zip(VARIABLES, traces, strict=True))
         metrics = {name: np.full(len(batch), np.nan) for name in job.metrics}
-        with threadpool_limits(limits=1):
-            seen = Traces(job.points, {name: named[name][good] for name in NEEDED}, self._eps(batch)[good])
-            for name, values in measured(job.metrics, seen).items() if good.any() else ():
-                metrics[name][good] = values
+        seen = Traces(job.points, {name: named[name][good] for name in NEEDED}, self._eps(batch)[good])
+        for name, values in measured(job.metrics, seen).items() if good.any() else ():
+            metrics[name][good] = values
         return Done(tuple(messages), metrics, {name: named[name] for name in job.trajectories})
 
     def _run_one(self, batch: Batch, run: int, traces: Floats) -> str:
