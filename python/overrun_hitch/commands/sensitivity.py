@@ -49,7 +49,8 @@ def sensitivity(
     store = stem.with_name(f"{stem.name}.zarr")
     with terminal.counting("Running") as told:
         sweep = run_plan(plan, store, scheduler=scheduler, workers=workers, progress=told)
-    found = analysed(sweep, base, variation)
+    with terminal.patience("Analysing"):
+        found = analysed(sweep, base, variation)
     title = f"{changed[:1].upper()}{changed[1:]}: every parameter by {spread:.0%} to either side"
     paths = figures.save(sensitivity_figure.draw(found, title), stem)
     sensitivity_table.show(title, found, [store, *paths])
