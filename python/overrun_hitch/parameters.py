@@ -56,6 +56,14 @@ class Quantities(BaseModel):
         return ", ".join(["a finite number", *limits])
 
     @classmethod
+    def limits(cls, name: str) -> tuple[float, float]:
+        """The ends of the allowed range of `name`, in its unit; infinite where there is none."""
+        declared = cls.model_fields[name].metadata
+        low = [getattr(limit, kind) for limit in declared for kind in ("ge", "gt") if hasattr(limit, kind)]
+        high = [getattr(limit, kind) for limit in declared for kind in ("le", "lt") if hasattr(limit, kind)]
+        return max(low, default=-math.inf), min(high, default=math.inf)
+
+    @classmethod
     def _explain(cls, error: Any) -> str:
         """One line for the first thing that pydantic found wrong."""
         name = str(error["loc"][0])

@@ -1,13 +1,13 @@
 """How much each parameter counts for damping and for jerk: Sobol indices, the modern form of the paper's section 8.2.
 
-All parameters vary at once, each evenly over a share of its value to either side. The first index of a parameter is
+All parameters vary at once, each evenly over a share of its value to either side, as far as that is allowed. The first index of a parameter is
 the share of the variance that it alone explains, the total index the share that is gone when it is held fixed
 (A. Saltelli et al., Comput. Phys. Commun. 181 (2010) 259-270, doi 10.1016/j.cpc.2009.09.018; computed by SALib).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -89,7 +89,13 @@ def analysed(sweep: xr.Dataset, base: Parameters, variation: Variation) -> Sensi
 
 def _problem(base: Parameters, variation: Variation) -> dict[str, Any]:
     """What SALib wants to know."""
-    bounds: list[Sequence[float]] = [
-        sorted((value * (1.0 - variation.spread), value * (1.0 + variation.spread))) for value in varied(base).values()
-    ]
-    return {"num_vars": len(bounds), "names": list(varied(base)), "bounds": bounds}
+    names = varied(base)
+    bounds = [_bounds(name, value, variation.spread) for name, value in names.items()]
+    return {"num_vars": len(bounds), "names": list(names), "bounds": bounds}
+
+
+def _bounds(name: str, value: float, spread: float) -> list[float]:
+    """Where the parameter varies: as far to either side as it is allowed."""
+    lowest, highest = Parameters.limits(name)
+    low, high = sorted((value * (1.0 - spread), value * (1.0 + spread)))
+    return [max(low, lowest), min(high, highest)]

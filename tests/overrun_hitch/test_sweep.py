@@ -101,7 +101,7 @@ def hitch(tmp_path: Path, fmu: Path, *options: str) -> subprocess.Popen[str]:
 def wait_until_midway(store: Path, process: subprocess.Popen[str]) -> None:
     deadline = time.monotonic() + 120.0
     while time.monotonic() < deadline and process.poll() is None:
-        if store.is_dir() and list((store / "status").glob("[0-9]*")):
+        if store.is_dir() and (read_sweep(store)["status"].values != MISSING).any():
             return
         time.sleep(0.01)
     raise AssertionError(f"no batch is done: {process.stderr.read() if process.stderr else ''}")
