@@ -1,8 +1,9 @@
 """How much each parameter counts for damping and for jerk: Sobol indices, the modern form of the paper's section 8.2.
 
-All parameters vary at once, each evenly over a share of its value to either side, as far as that is allowed. The first index of a parameter is
-the share of the variance that it alone explains, the total index the share that is gone when it is held fixed
-(A. Saltelli et al., Comput. Phys. Commun. 181 (2010) 259-270, doi 10.1016/j.cpc.2009.09.018; computed by SALib).
+All parameters vary at once, each evenly over a share of its value to either side, as far as that is allowed. The first
+index of a parameter is the share of the variance that it alone explains, the total index the share that is gone when it
+is held fixed (A. Saltelli et al., Comput. Phys. Commun. 181 (2010) 259-270, doi 10.1016/j.cpc.2009.09.018; computed by
+SALib).
 """
 
 from __future__ import annotations

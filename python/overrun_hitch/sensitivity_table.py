@@ -19,8 +19,8 @@ def show(title: str, found: Sensitivity, paths: Sequence[Path]) -> None:
     table = Table(box=None, pad_edge=False)
     table.add_column("")
     for metric in found.indices:
-        table.add_column(f"{metric}\nalone", justify="right")
-        table.add_column("\ntotal", justify="right")
+        table.add_column(f"{metric}\nalone", justify="right", no_wrap=True)
+        table.add_column("\ntotal", justify="right", no_wrap=True)
     first = next(iter(found.indices.values()))
     for place in np.argsort(-first.total):
         cells = []
@@ -34,4 +34,4 @@ def show(title: str, found: Sensitivity, paths: Sequence[Path]) -> None:
 
 
 def _cell(index: float, confidence: float) -> str:
-    return f"{index:.3f} +- {confidence:.3f}"
+    return f"{index:.3f} \N{PLUS-MINUS SIGN} {confidence:.3f}"
