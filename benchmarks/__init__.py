@@ -1,1 +1,1 @@
-"""Measurements of the FMU; `make bench` runs them."""
+"""Measurements of the FMU; `make bench` runs those of a run of figure 8."""

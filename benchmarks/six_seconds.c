@@ -1,6 +1,6 @@
 /* CPU time of figure 8's six seconds through the FMI 2 functions, and of the arithmetic alone that they take.
  *
- *     six_seconds GUID BRAKE_TORQUE COMPRESSION RUNS      the middle ones value references
+ *     six_seconds GUID BRAKE_TORQUE COMPRESSION TOLERANCE RUNS      the second and third are value references
  *
  * Linked with the sources of the FMU, whose headers tell the counters and the linear algebra. Runs and arithmetic
  * alternate, so that both see the same machine. Prints "name value" lines, then the compression at every 10 ms. */
@@ -34,15 +34,17 @@ static double now(void)
 }
 
 /* The CPU time of a run in seconds; NaN if it failed. */
-static double run(fmi2Component c, const fmi2ValueReference references[], double compression[], Arithmetic *taken)
+static double run(fmi2Component c, const fmi2ValueReference references[], double tolerance, double compression[],
+                  Arithmetic *taken)
 {
     const double torque = 1000.0;
     const double size = 0.01;
     const Instance *instance = c;
-    bool fine = fmi2Reset(c) == fmi2OK && fmi2SetupExperiment(c, fmi2False, 0.0, 0.0, fmi2False, 0.0) == fmi2OK &&
-                fmi2EnterInitializationMode(c) == fmi2OK && fmi2ExitInitializationMode(c) == fmi2OK;
     const double start = now();
-    fine = fine && fmi2SetReal(c, &references[0], 1, &torque) == fmi2OK;
+    bool fine = fmi2Reset(c) == fmi2OK && fmi2SetupExperiment(c, fmi2True, tolerance, 0.0, fmi2False, 0.0) == fmi2OK &&
+                fmi2EnterInitializationMode(c) == fmi2OK && fmi2ExitInitializationMode(c) == fmi2OK &&
+                fmi2SetReal(c, &references[0], 1, &torque) == fmi2OK &&
+                fmi2GetReal(c, &references[1], 1, &compression[0]) == fmi2OK;
     for (int i = 0; i < STEPS && fine; i++) {
         fine = fmi2DoStep(c, i * size, size, fmi2True) == fmi2OK &&
                fmi2GetReal(c, &references[1], 1, &compression[i + 1]) == fmi2OK;
@@ -113,22 +115,23 @@ int main(int argc, char **argv)
     static double compression[STEPS + 1];
     static double total[MAX_RUNS], ratio[MAX_RUNS], each[KINDS][MAX_RUNS];
     static Arithmetic taken;
-    if (argc != 5) {
+    if (argc != 6) {
         return 2;
     }
     const fmi2ValueReference references[] = {(fmi2ValueReference)strtoul(argv[2], NULL, 10),
                                              (fmi2ValueReference)strtoul(argv[3], NULL, 10)};
-    const int runs = (int)strtol(argv[4], NULL, 10);
+    const double tolerance = strtod(argv[4], NULL);
+    const int runs = (int)strtol(argv[5], NULL, 10);
     const fmi2CallbackFunctions silent = {0};
     fmi2Component c = fmi2Instantiate("six seconds", fmi2CoSimulation, argv[1], NULL, &silent, fmi2False, fmi2False);
-    if (c == NULL || runs < 1 || runs > MAX_RUNS || isnan(run(c, references, compression, &taken))) {
+    if (c == NULL || runs < 1 || runs > MAX_RUNS || isnan(run(c, references, tolerance, compression, &taken))) {
         return 1;
     }
     const Counters n = ((const Instance *)c)->state.integrator.counters;
     count(&taken, &n);
     for (int i = 0; i < runs; i++) {
         double times[KINDS];
-        total[i] = run(c, references, compression, NULL);
+        total[i] = run(c, references, tolerance, compression, NULL);
         calculate(&taken, times);
         ratio[i] = total[i] / (times[0] + times[1] + times[2] + times[3]);
         for (int kind = 0; kind < KINDS; kind++) {
