@@ -87,7 +87,8 @@ static bool leaves_surface(const Rodas *r, Variables *v, const bool holds[], con
 static double bisect(const Rodas *r, double before, double behind, Variables *v, const bool holds[])
 {
     double z[AT_LEAST_ONE(N_RELATIONS)];
-    const double rounding = DBL_EPSILON * fmax(fabs(r->path.time), fabs(r->path.time + r->path.length)) / r->path.length;
+    const double rounding =
+        DBL_EPSILON * fmax(fabs(r->path.time), fabs(r->path.time + r->path.length)) / r->path.length;
     while (behind - before > fmax(rounding, DBL_EPSILON * behind)) {
         const double middle = 0.5 * (before + behind);
         if (changed_at(r, middle, v, holds, z)) {

@@ -65,8 +65,8 @@ typedef struct {
     double next_start; /* u at the start of the step that is being made */
 } Coupling;
 
-/* An integrator step that leads beyond the communication point. As long as nothing is set, the next communication points
- * lie on its path. */
+/* An integrator step that leads beyond the communication point. As long as nothing is set, the next communication
+ * points lie on its path. */
 typedef struct {
     bool open;
     Path path;

@@ -180,7 +180,8 @@ static void arrive_at_end(Integrator *m, const Rodas *r, const bool holds[], dou
                           Point *arrival)
 {
     m->counters.steps++;
-    arrival->time = r->path.length >= remaining ? target : r->path.time + r->path.length; /* t + (target - t) may not be target */
+    arrival->time =
+        r->path.length >= remaining ? target : r->path.time + r->path.length; /* t + (target - t) may not be target */
     memcpy(arrival->state, r->path.end, sizeof arrival->state);
     memcpy(arrival->holds, holds, sizeof arrival->holds);
     arrival->event = false;
@@ -201,7 +202,8 @@ static bool arrive_at_event(Integrator *m, const Rodas *r, Variables *v, const E
         return true;
     }
     m->counters.steps++;
-    arrival->time = fmin(target, fmax(r->path.time + event->fraction * r->path.length, nextafter(r->path.time, target)));
+    arrival->time =
+        fmin(target, fmax(r->path.time + event->fraction * r->path.length, nextafter(r->path.time, target)));
     v->time = arrival->time;
     ramp_apply(r->ramp, v);
     memcpy(&v->at[FIRST_STATE], arrival->state, N_STATES * sizeof(double));

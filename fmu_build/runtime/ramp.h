@@ -10,8 +10,8 @@ typedef struct {
     double from[AT_LEAST_ONE(N_INPUTS)];
     double slope[AT_LEAST_ONE(N_INPUTS)];
     bool given[AT_LEAST_ONE(N_INPUTS)]; /* the slope has been set, be it to zero */
-    bool is_set; /* some slope is given */
-    bool over;   /* the slopes are those of the last step, and are forgotten when the next one begins */
+    bool is_set;                        /* some slope is given */
+    bool over; /* the slopes are those of the last step, and are forgotten when the next one begins */
 } Ramp;
 
 /* A slope for the next step. */

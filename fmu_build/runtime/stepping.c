@@ -58,6 +58,15 @@ static double intermediate(Instance *instance, const StepOptions *options)
     return options->may_return_early ? fmax(end, s->v.time) : (double)INFINITY;
 }
 
+/* To a time on the path of the course. */
+static void follow(State *s, double time)
+{
+    const Path *path = &s->course.path;
+    s->v.time = time;
+    rodas_dense(path, (time - path->time) / path->length, &s->v.at[FIRST_STATE]);
+    ramp_apply(&s->ramp, &s->v);
+}
+
 /* One integrator step from where the instance is, at most to `limit`. */
 static bool make_step(Instance *instance, double limit, Message *why)
 {
@@ -84,12 +93,10 @@ static bool set_out(Instance *instance, double target, Message *why)
         return false;
     }
     course->open = course->arrival.time > target;
-    if (course->open) {
-        if (N_RELATIONS == 0) {
-            rodas_bend(&instance->rodas); /* otherwise the search for events has done so */
-        }
-        course->path = instance->rodas.path;
+    if (course->open && N_RELATIONS == 0) { /* otherwise the search for events has done so */
+        rodas_bend(&instance->rodas);
     }
+    course->path = instance->rodas.path;
     return true;
 }
 
@@ -98,20 +105,20 @@ static bool advance(Instance *instance, double target, bool events_wait, Message
 {
     State *s = &instance->state;
     Course *course = &s->course;
+    const double start = s->v.time;
     s->current = false;
     if (!course->open && !set_out(instance, target, why)) {
         return false;
     }
     if (course->open && course->arrival.time > target) {
-        s->v.time = target;
-        rodas_dense(&course->path, (target - course->path.time) / course->path.length, &s->v.at[FIRST_STATE]);
+        follow(s, target);
         return true;
     }
     course->open = false;
     if (course->arrival.event) {
         log_events(instance, &course->arrival);
         if (events_too_dense(&s->density, course->arrival.time, s->holds, course->arrival.holds, why)) {
-            rodas_back(&instance->rodas, &s->v);
+            follow(s, start);
             return false;
         }
     }
@@ -140,13 +147,12 @@ bool stepping_integrate(Instance *instance, double target, const StepOptions *op
     return true;
 }
 
-/* The course has overlooked that a surface is crossed: from `start`, or where it begins, step no further than target. */
+/* The course has overlooked that a surface is crossed: from `start`, or where it begins, step no further than target.
+ */
 static bool step_again(Instance *instance, double start, double target, const StepOptions *options, Message *why)
 {
     State *s = &instance->state;
-    const Path *path = &s->course.path;
-    s->v.time = fmax(start, path->time);
-    rodas_dense(path, (s->v.time - path->time) / path->length, &s->v.at[FIRST_STATE]);
+    follow(s, fmax(start, s->course.path.time));
     s->calm = s->course.open = false;
     return stepping_integrate(instance, target, options, why);
 }
