@@ -56,12 +56,13 @@ static double run(fmi2Component c, const fmi2ValueReference references[], double
     return fine ? now() - start : (double)NAN;
 }
 
-/* What the counters say that a run takes. Each trial of a step has one factorization and a solution for each stage;
+/* What the counters say that a run takes, and a right-hand side at each communication point: steps go on across them,
+ * and the accelerations there are asked for. Each trial of a step has one factorization and a solution for each stage;
  * its first stage uses the right-hand side of the step's start. */
 static void count(Arithmetic *taken, const Counters *n)
 {
     const long trials = (long)(n->evaluations - n->jacobians) / (RODAS_STAGES - 1);
-    const long counts[KINDS] = {(long)n->evaluations, (long)n->jacobians, trials, trials * RODAS_STAGES, STEPS};
+    const long counts[KINDS] = {(long)n->evaluations + STEPS, (long)n->jacobians, trials, trials * RODAS_STAGES, STEPS};
     double time_derivative[AT_LEAST_ONE(N_STATES)];
     memcpy(taken->count, counts, sizeof counts);
     model_jacobian(&taken->v, taken->holds, taken->jacobian, time_derivative);

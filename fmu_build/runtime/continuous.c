@@ -12,6 +12,7 @@ Status instance_enter_event_mode(Instance *instance)
 {
     State *s = &instance->state;
     s->phase = EVENT_MODE;
+    s->calm = s->course.open = false;
     if (s->event_waits) { /* the step has found out what the truths will be, and no fresh look would tell on a surface
                            */
         memcpy(s->holds, s->next_holds, sizeof s->holds);

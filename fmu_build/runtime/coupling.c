@@ -68,12 +68,12 @@ static void correct(Instance *instance, double error)
     if (!lu_factorize(r->jacobian, per_lag, r->factors)) {
         return;
     }
-    lu_solve(r->factors, &d.at[FIRST_DERIVATIVE], r->end); /* (I - lag J) x = d: (I / lag - J) x = d / lag */
+    lu_solve(r->factors, &d.at[FIRST_DERIVATIVE], r->path.end); /* (I - lag J) x = d: (I / lag - J) x = d / lag */
     for (int i = 0; i < N_STATES; i++) {
-        r->end[i] = s->v.at[FIRST_STATE + i] + per_lag * r->end[i];
+        r->path.end[i] = s->v.at[FIRST_STATE + i] + per_lag * r->path.end[i];
     }
-    if (first_not_finite(r->end, N_STATES) == FINITE) {
-        memcpy(&s->v.at[FIRST_STATE], r->end, N_STATES * sizeof(double));
+    if (first_not_finite(r->path.end, N_STATES) == FINITE) {
+        memcpy(&s->v.at[FIRST_STATE], r->path.end, N_STATES * sizeof(double));
         s->settled = s->current = false;
         integrator_discontinuity(&s->integrator);
     }

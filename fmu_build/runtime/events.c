@@ -54,9 +54,9 @@ bool events_settle(Variables *v, bool holds[], Message *why)
 /* Residuals at a point of the trial. */
 static bool changed_at(const Rodas *r, double fraction, Variables *v, const bool holds[], double z[])
 {
-    v->time = r->time + fraction * r->length;
+    v->time = r->path.time + fraction * r->path.length;
     ramp_apply(r->ramp, v);
-    rodas_dense(r, fraction, &v->at[FIRST_STATE]);
+    rodas_dense(&r->path, fraction, &v->at[FIRST_STATE]);
     model_relations(v, holds, z);
     for (int i = 0; i < N_RELATIONS; i++) {
         if (truth(i, z[i], holds[i]) != holds[i]) {
@@ -87,7 +87,8 @@ static bool leaves_surface(const Rodas *r, Variables *v, const bool holds[], con
 static double bisect(const Rodas *r, double before, double behind, Variables *v, const bool holds[])
 {
     double z[AT_LEAST_ONE(N_RELATIONS)];
-    const double rounding = DBL_EPSILON * fmax(fabs(r->time), fabs(r->time + r->length)) / r->length;
+    const double rounding =
+        DBL_EPSILON * fmax(fabs(r->path.time), fabs(r->path.time + r->path.length)) / r->path.length;
     while (behind - before > fmax(rounding, DBL_EPSILON * behind)) {
         const double middle = 0.5 * (before + behind);
         if (changed_at(r, middle, v, holds, z)) {
@@ -121,6 +122,16 @@ bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving,
     event->fraction = bisect(r, share(sample - 1), share(sample), v, holds);
     (void)changed_at(r, event->fraction, v, holds, z);
     take_truths(z, holds, event->truths);
+    return true;
+}
+
+bool events_hold(const Variables *v, const bool holds[])
+{
+    for (int i = 0; i < N_RELATIONS; i++) {
+        if (truth(i, v->at[relation_reference[i]], holds[i]) != holds[i]) {
+            return false;
+        }
+    }
     return true;
 }
 

@@ -22,6 +22,9 @@ typedef struct {
  * truth soon differs and `leaving` allows it, the event is at the start, and its truth is that of the side gone to. */
 bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving, Event *event);
 
+/* Are the truths held those of the residuals in v, which are up to date? */
+bool events_hold(const Variables *v, const bool holds[]);
+
 /* Guards against events without end (sliding along a surface, accumulating events): over one communication step. */
 typedef struct {
     double span; /* events_too_dense tolerates a batch of events in a longer time than this */

@@ -68,6 +68,12 @@ void instance_reset(Instance *instance)
     s->v.time = 0.0;
 }
 
+void instance_disturb(State *s)
+{
+    s->calm = s->course.open = false;
+    integrator_discontinuity(&s->integrator);
+}
+
 /* While the caller integrates, and when all is over, truths are held. */
 static bool truths_follow(Phase phase) { return (phase & (INSTANTIATED | INITIALIZING | STEPPING | EVENT_MODE)) != 0; }
 
@@ -194,7 +200,7 @@ Status instance_set(Instance *instance, const unsigned references[], size_t n, c
         if (*value != values[i]) { /* an input held constant must leave no trace in the integration */
             *value = values[i];
             s->settled = s->current = false;
-            integrator_discontinuity(&s->integrator);
+            instance_disturb(s);
         }
     }
     return STATUS_OK;

@@ -65,6 +65,14 @@ typedef struct {
     double next_start; /* u at the start of the step that is being made */
 } Coupling;
 
+/* An integrator step that leads beyond the communication point. As long as nothing is set, the next communication
+ * points lie on its path. */
+typedef struct {
+    bool open;
+    Path path;
+    Point arrival;
+} Course;
+
 typedef struct {
     Use use;
     Phase phase;
@@ -80,6 +88,8 @@ typedef struct {
     EventDensity density;
     Ramp ramp;
     Integrator integrator;
+    bool calm; /* nothing has been set since the last step */
+    Course course;
 #if N_COUPLINGS > 0
     Coupling coupling;
 #endif
@@ -113,6 +123,9 @@ Status instance_get(Instance *instance, const unsigned references[], size_t n, d
 Status instance_set(Instance *instance, const unsigned references[], size_t n, const double values[]);
 
 /* For the other files of the runtime. */
+
+/* What has been set makes a difference: the integrator cannot go on as before. */
+void instance_disturb(State *s);
 
 /* Calculate what depends on what has been set: the truths, or all variables. False: why. */
 bool instance_settle(Instance *instance, Message *why);

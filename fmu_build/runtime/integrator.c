@@ -8,7 +8,7 @@
 
 /* The error estimate, of the embedded solution of order 4, goes with the fifth power of the length. */
 static const double ERROR_ORDER = 5.0;
-static const double SAFETY = 0.9;
+static const double SAFETY = 0.8;
 static const double MAX_GROWTH = 5.0;
 static const double MAX_SHRINK = 0.2;
 /* Below this error (1 is allowed) a step cut short says nothing against a longer one: it may be all rounding. */
@@ -49,7 +49,7 @@ static double larger(double a, double b) { return a > b ? a : b; }
 /* The error of a state relative to what is allowed. */
 static double relative_error(const Rodas *r, int state, double tolerance)
 {
-    const double value = larger(fabs(r->state[state]), fabs(r->end[state]));
+    const double value = larger(fabs(r->path.state[state]), fabs(r->path.end[state]));
     return fabs(r->error[state]) / integrator_allowed_error(state, value, tolerance);
 }
 
@@ -75,8 +75,8 @@ static double first_length(const Rodas *r, double tolerance)
     double d1 = 0.0;
     double d2 = 0.0;
     for (int i = 0; i < N_STATES; i++) {
-        const double allowed = integrator_allowed_error(i, r->state[i], tolerance);
-        d0 = fmax(d0, fabs(r->state[i]) / allowed);
+        const double allowed = integrator_allowed_error(i, r->path.state[i], tolerance);
+        d0 = fmax(d0, fabs(r->path.state[i]) / allowed);
         d1 = fmax(d1, fabs(r->derivative[i]) / allowed);
         d2 = fmax(d2, fabs(second[i]) / allowed);
     }
@@ -131,7 +131,7 @@ static bool explain_start(const Rodas *r, int state, Message *why)
 {
     const VariableInfo *info = &variable_info[FIRST_STATE + state];
     message_write(why, "the derivative of %s, or its Jacobian, is not finite at t = %s, where %s = %s", info->name,
-                  quantity(r->time, "s").text, info->name, quantity(r->state[state], info->unit).text);
+                  quantity(r->path.time, "s").text, info->name, quantity(r->path.state[state], info->unit).text);
     return false;
 }
 
@@ -148,7 +148,7 @@ static bool explain_collapse(const Rodas *r, int not_finite, double tolerance, M
 {
     const bool finite = not_finite == FINITE;
     const int state = finite ? worst_state(r, tolerance) : not_finite;
-    message_write(why, "no step can be made from t = %s, however small: %s %s", quantity(r->time, "s").text,
+    message_write(why, "no step can be made from t = %s, however small: %s %s", quantity(r->path.time, "s").text,
                   finite ? "the largest error is that of" : "not finite is the derivative of",
                   N_STATES > 0 ? variable_info[FIRST_STATE + state].name : "nothing");
     return false;
@@ -180,8 +180,9 @@ static void arrive_at_end(Integrator *m, const Rodas *r, const bool holds[], dou
                           Point *arrival)
 {
     m->counters.steps++;
-    arrival->time = r->length >= remaining ? target : r->time + r->length; /* t + (target - t) may not be target */
-    memcpy(arrival->state, r->end, sizeof arrival->state);
+    arrival->time =
+        r->path.length >= remaining ? target : r->path.time + r->path.length; /* t + (target - t) may not be target */
+    memcpy(arrival->state, r->path.end, sizeof arrival->state);
     memcpy(arrival->holds, holds, sizeof arrival->holds);
     arrival->event = false;
 }
@@ -194,14 +195,15 @@ static bool arrive_at_event(Integrator *m, const Rodas *r, Variables *v, const E
     integrator_discontinuity(m);
     memcpy(arrival->holds, event->truths, sizeof arrival->holds);
     arrival->event = true;
-    rodas_dense(r, event->fraction, arrival->state);
+    rodas_dense(&r->path, event->fraction, arrival->state);
     if (event->fraction == 0.0) {
-        m->left_surface = arrival->time = r->time;
+        m->left_surface = arrival->time = r->path.time;
         m->has_left_surface = true;
         return true;
     }
     m->counters.steps++;
-    arrival->time = fmin(target, fmax(r->time + event->fraction * r->length, nextafter(r->time, target)));
+    arrival->time =
+        fmin(target, fmax(r->path.time + event->fraction * r->path.length, nextafter(r->path.time, target)));
     v->time = arrival->time;
     ramp_apply(r->ramp, v);
     memcpy(&v->at[FIRST_STATE], arrival->state, N_STATES * sizeof(double));
@@ -232,10 +234,10 @@ bool integrator_step(Integrator *m, Rodas *r, Variables *v, const bool holds[], 
     if (!start(m, r, v, holds, ramp, tolerance, why)) {
         return false;
     }
-    const double remaining = target - r->time;
-    const bool leaving = !(m->has_left_surface && m->left_surface == r->time);
+    const double remaining = target - r->path.time;
+    const bool leaving = !(m->has_left_surface && m->left_surface == r->path.time);
     double length = fit(m->length, remaining);
-    const double shortest = fmax(SHORTEST, 4.0 * DBL_EPSILON * fmax(fabs(r->time), length));
+    const double shortest = fmax(SHORTEST, 4.0 * DBL_EPSILON * fmax(fabs(r->path.time), length));
     double error = 0.0;
     bool rejected = false;
     bool found = false;

@@ -5,22 +5,26 @@
 
 static void forget_if_over(Ramp *ramp)
 {
-    if (ramp->over) {
+    if (ramp->over && ramp->is_set) {
         memset(ramp, 0, sizeof *ramp);
     }
+    ramp->over = false;
 }
 
 void ramp_set(Ramp *ramp, int input, double slope)
 {
     forget_if_over(ramp);
     ramp->slope[input] = slope;
-    ramp->given[input] = true;
+    ramp->given[input] = ramp->is_set = true;
 }
 
 void ramp_begin(Ramp *ramp, const Variables *v)
 {
     forget_if_over(ramp);
     ramp->moves = false;
+    if (!ramp->is_set) {
+        return;
+    }
     ramp->start = v->time;
     for (int i = 0; i < N_INPUTS; i++) {
         ramp->from[i] = v->at[FIRST_INPUT + i];

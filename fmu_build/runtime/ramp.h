@@ -10,6 +10,7 @@ typedef struct {
     double from[AT_LEAST_ONE(N_INPUTS)];
     double slope[AT_LEAST_ONE(N_INPUTS)];
     bool given[AT_LEAST_ONE(N_INPUTS)]; /* the slope has been set, be it to zero */
+    bool is_set;                        /* some slope is given */
     bool over; /* the slopes are those of the last step, and are forgotten when the next one begins */
 } Ramp;
 

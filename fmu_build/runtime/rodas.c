@@ -38,8 +38,8 @@ static int first_bad_gradient(const Rodas *r)
 int rodas_start(Rodas *r, Variables *v, const bool holds[], const Ramp *ramp)
 {
     r->ramp = ramp;
-    r->time = v->time;
-    memcpy(r->state, &v->at[FIRST_STATE], N_STATES * sizeof(double));
+    r->path.time = v->time;
+    memcpy(r->path.state, &v->at[FIRST_STATE], N_STATES * sizeof(double));
     model_derivatives(v, holds);
     take_derivatives(v, r->derivative);
     model_jacobian(v, holds, r->jacobian, r->time_derivative);
@@ -55,8 +55,8 @@ int rodas_start(Rodas *r, Variables *v, const bool holds[], const Ramp *ramp)
 
 void rodas_back(const Rodas *r, Variables *v)
 {
-    v->time = r->time;
-    memcpy(&v->at[FIRST_STATE], r->state, N_STATES * sizeof(double));
+    v->time = r->path.time;
+    memcpy(&v->at[FIRST_STATE], r->path.state, N_STATES * sizeof(double));
     ramp_apply(r->ramp, v);
 }
 
@@ -80,14 +80,14 @@ static int stage_derivative(Rodas *r, int stage, Variables *v, const bool holds[
     if (stage <= RODAS_STAGES - 3) {
         combine(increment, RODAS_A[stage], r->u, stage);
         for (int i = 0; i < N_STATES; i++) {
-            argument[i] = r->state[i] + increment[i];
+            argument[i] = r->path.state[i] + increment[i];
         }
     } else {
         for (int i = 0; i < N_STATES; i++) {
             argument[i] += r->u[stage - 1][i];
         }
     }
-    v->time = r->time + RODAS_NODE[stage] * r->length;
+    v->time = r->path.time + RODAS_NODE[stage] * r->path.length;
     if (r->ramp->moves) {
         ramp_apply(r->ramp, v);
     }
@@ -106,7 +106,7 @@ int rodas_try(Rodas *r, double length, Variables *v, const bool holds[])
     Vector right;
     Vector lost; /* by the solution of the first system */
     const double shift = 1.0 / (RODAS_GAMMA * length);
-    r->length = length;
+    r->path.length = length;
     if (!lu_factorize(r->jacobian, shift, r->factors)) {
         return 0;
     }
@@ -127,25 +127,25 @@ int rodas_try(Rodas *r, double length, Variables *v, const bool holds[])
         }
     }
     for (int i = 0; i < N_STATES; i++) { /* v still holds the argument of the last stage, the embedded solution */
-        r->end[i] = v->at[FIRST_STATE + i] + r->u[RODAS_STAGES - 1][i];
+        r->path.end[i] = v->at[FIRST_STATE + i] + r->u[RODAS_STAGES - 1][i];
         r->error[i] = fabs(r->u[RODAS_STAGES - 1][i]) + fabs(RODAS_A[RODAS_STAGES - 1][0] * lost[i]);
     }
-    return first_not_finite(r->end, N_STATES);
+    return first_not_finite(r->path.end, N_STATES);
 }
 
 void rodas_bend(Rodas *r)
 {
     for (int l = 0; l < RODAS_DENSE; l++) {
-        combine(r->bend[l], RODAS_BEND[l], r->u, RODAS_STAGES);
+        combine(r->path.bend[l], RODAS_BEND[l], r->u, RODAS_STAGES);
     }
 }
 
-void rodas_dense(const Rodas *r, double fraction, double state[])
+void rodas_dense(const Path *path, double fraction, double state[])
 {
     const double s = fraction;
     for (int i = 0; i < N_STATES; i++) {
-        const double bend = r->bend[0][i] + s * (r->bend[1][i] + s * r->bend[2][i]);
+        const double bend = path->bend[0][i] + s * (path->bend[1][i] + s * path->bend[2][i]);
         /* written as an increment, so that a short way from the start loses nothing to rounding */
-        state[i] = s < 1.0 ? r->state[i] + s * (r->end[i] - r->state[i] + (1.0 - s) * bend) : r->end[i];
+        state[i] = s < 1.0 ? path->state[i] + s * (path->end[i] - path->state[i] + (1.0 - s) * bend) : path->end[i];
     }
 }

@@ -9,21 +9,26 @@
 
 typedef double Vector[AT_LEAST_ONE(N_STATES)];
 
+/* The states over a step. */
 typedef struct {
-    /* Where the step starts */
+    double time; /* where it starts */
+    double length;
+    Vector state;             /* at its start */
+    Vector end;               /* at time + length */
+    Vector bend[RODAS_DENSE]; /* after rodas_bend */
+} Path;
+
+typedef struct {
+    Path path; /* its start is that of the step, the rest what the last trial of a length gave */
+    /* At the start */
     const Ramp *ramp;
-    double time;
-    Vector state;
     Vector derivative;
     double jacobian[AT_LEAST_ONE(N_JACOBIAN)];
     Vector time_derivative;
-    /* What the last trial of a length gave */
-    double length;
+    /* Of the last trial */
     double factors[AT_LEAST_ONE(N_FACTORS)]; /* of I / (gamma length) - J */
-    Vector end;                              /* state at time + length */
     Vector error;                            /* estimated: of the method, and of the linear algebra */
     Vector u[RODAS_STAGES];
-    Vector bend[RODAS_DENSE]; /* after rodas_bend */
 } Rodas;
 
 /* Fix the start of a step at the time and the states in v: evaluates the derivatives and the Jacobian there, once for
@@ -41,7 +46,7 @@ int rodas_try(Rodas *r, double length, Variables *v, const bool holds[]);
 /* Prepare rodas_dense for the last trial. */
 void rodas_bend(Rodas *r);
 
-/* The states at time + fraction * length of the last trial, 0 <= fraction <= 1. */
-void rodas_dense(const Rodas *r, double fraction, double state[]);
+/* The states at time + fraction * length, 0 <= fraction <= 1: dense output, of order 4. */
+void rodas_dense(const Path *path, double fraction, double state[]);
 
 #endif

@@ -58,24 +58,71 @@ static double intermediate(Instance *instance, const StepOptions *options)
     return options->may_return_early ? fmax(end, s->v.time) : (double)INFINITY;
 }
 
-/* One integrator step. If none can be made, why, and the instance stays where it is. */
-static bool advance(Instance *instance, double target, bool events_wait, Message *why)
+/* To a time on the path of the course. */
+static void follow(State *s, double time)
+{
+    const Path *path = &s->course.path;
+    s->v.time = time;
+    rodas_dense(path, (time - path->time) / path->length, &s->v.at[FIRST_STATE]);
+    ramp_apply(&s->ramp, &s->v);
+}
+
+/* One integrator step from where the instance is, at most to `limit`. */
+static bool make_step(Instance *instance, double limit, Message *why)
 {
     State *s = &instance->state;
-    Point arrival;
-    s->current = false;
-    bool fine = integrator_step(&s->integrator, &instance->rodas, &s->v, s->holds, &s->ramp, target, s->tolerance,
-                                &arrival, why) &&
-                valid_states(&arrival, s->tolerance, why);
-    if (fine && arrival.event) {
-        log_events(instance, &arrival);
-        fine = !events_too_dense(&s->density, arrival.time, s->holds, arrival.holds, why);
-    }
-    if (!fine) {
+    Course *course = &s->course;
+    if (!integrator_step(&s->integrator, &instance->rodas, &s->v, s->holds, &s->ramp, limit, s->tolerance,
+                         &course->arrival, why) ||
+        !valid_states(&course->arrival, s->tolerance, why)) {
         rodas_back(&instance->rodas, &s->v);
         return false;
     }
-    commit(s, &arrival, arrival.event && events_wait);
+    return true;
+}
+
+/* Begin a step. While nothing is set it may lead beyond the communication point, so that its length is up to its error
+ * alone. It is not worth while where inputs change from step to step, nor with a coupling, whose input always does. */
+static bool set_out(Instance *instance, double target, Message *why)
+{
+    State *s = &instance->state;
+    Course *course = &s->course;
+    const bool may_pass = N_COUPLINGS == 0 && s->calm && !s->ramp.moves && s->stop > target;
+    /* What makes a longer step fail may never happen. */
+    if (!(may_pass && make_step(instance, s->stop, why)) && !make_step(instance, target, why)) {
+        return false;
+    }
+    course->open = course->arrival.time > target;
+    if (course->open && N_RELATIONS == 0) { /* otherwise the search for events has done so */
+        rodas_bend(&instance->rodas);
+    }
+    course->path = instance->rodas.path;
+    return true;
+}
+
+/* Go on along the course, at most to target. */
+static bool advance(Instance *instance, double target, bool events_wait, Message *why)
+{
+    State *s = &instance->state;
+    Course *course = &s->course;
+    const double start = s->v.time;
+    s->current = false;
+    if (!course->open && !set_out(instance, target, why)) {
+        return false;
+    }
+    if (course->open && course->arrival.time > target) {
+        follow(s, target);
+        return true;
+    }
+    course->open = false;
+    if (course->arrival.event) {
+        log_events(instance, &course->arrival);
+        if (events_too_dense(&s->density, course->arrival.time, s->holds, course->arrival.holds, why)) {
+            follow(s, start);
+            return false;
+        }
+    }
+    commit(s, &course->arrival, course->arrival.event && events_wait);
     return true;
 }
 
@@ -100,6 +147,26 @@ bool stepping_integrate(Instance *instance, double target, const StepOptions *op
     return true;
 }
 
+/* The course has overlooked that a surface is crossed: from `start`, or where it begins, step no further than target.
+ */
+static bool step_again(Instance *instance, double start, double target, const StepOptions *options, Message *why)
+{
+    State *s = &instance->state;
+    follow(s, fmax(start, s->course.path.time));
+    s->calm = s->course.open = false;
+    return stepping_integrate(instance, target, options, why);
+}
+
+/* All of v at the end of a step; the caller may have read them in between. */
+static void show(State *s)
+{
+    if (!s->current) {
+        model_outputs(&s->v, s->holds);
+        coupling_show(s);
+        s->current = true;
+    }
+}
+
 Status instance_step(Instance *instance, double time, double size, const StepOptions *options, StepResult *result)
 {
     State *s = &instance->state;
@@ -115,17 +182,19 @@ Status instance_step(Instance *instance, double time, double size, const StepOpt
     const double start = s->v.time;
     const bool begun = coupling_begin(instance, size, &why);
     ramp_begin(&s->ramp, &s->v);
-    const bool arrived = begun && stepping_integrate(instance, target, options, &why);
+    s->course.open = s->course.open && !s->ramp.moves;
+    bool arrived = begun && stepping_integrate(instance, target, options, &why);
     ramp_end(&s->ramp);
-    if (!s->current) { /* the caller may have read them in between */
-        model_outputs(&s->v, s->holds);
-        coupling_show(s);
-        s->current = true;
+    show(s);
+    if (s->course.open && !events_hold(&s->v, s->holds)) {
+        arrived = step_again(instance, start, target, options, &why);
+        show(s);
     }
     if (arrived) {
         coupling_end(instance, start);
     }
     s->after_event = s->event_waits;
+    s->calm = true;
     if (!arrived || !valid_variables(&s->v, &why)) {
         s->phase = FAILED;
         return instance_refuse(instance, &why);

@@ -128,7 +128,8 @@ def test_no_verdict_on_what_theory_does_not_know(car_trailer_fmu: Path, changes:
 
 def test_a_buffer_out_of_reach_changes_nothing(car_trailer_fmu: Path) -> None:
     near = simulated(car_trailer_fmu, scenario(travel=0.1, x_2=0.06, k_2=8000.0))
-    assert near == simulated(car_trailer_fmu, scenario())
+    for name, row in simulated(car_trailer_fmu, scenario()).items():
+        assert near[name].found == pytest.approx(row.found, rel=1e-12)
 
 
 def test_nothing_between_car_and_trailer(oracle_run: OracleRun) -> None:

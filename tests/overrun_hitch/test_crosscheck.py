@@ -120,10 +120,10 @@ def test_a_damper_one_percent_off_differs(
 
 @pytest.mark.parametrize("figure", FIGURES)
 def test_a_coarser_tolerance_agrees(car_trailer_fmu: Path, figure: str) -> None:
-    fine, coarse = (step_brake(FIGURES[figure], fmu=car_trailer_fmu, relative_tolerance=rtol) for rtol in (1e-10, 1e-3))
+    fine, coarse = (step_brake(FIGURES[figure], fmu=car_trailer_fmu, relative_tolerance=rtol) for rtol in (1e-10, 1e-5))
     comparison = compare_runs(fine, coarse, "B", Allowed())
     assert comparison.differing == []
-    assert 1e-5 < max(row.largest / row.range for row in comparison.distances) < 2e-4
+    assert 1e-5 < max(row.largest / row.range for row in comparison.distances) < 2e-3
 
 
 def test_passages_are_the_oracles(car_trailer_fmu: Path) -> None:

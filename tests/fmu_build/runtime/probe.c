@@ -61,12 +61,12 @@ void probe_fixed_steps(double start, double end, int steps, double x[], double f
         v.time = start + (end - start) * step / steps;
         (void)rodas_start(&r, &v, holds, &ramp);
         (void)rodas_try(&r, (end - start) / steps, &v, holds);
-        memcpy(&v.at[FIRST_STATE], r.end, N_STATES * sizeof(double));
+        memcpy(&v.at[FIRST_STATE], r.path.end, N_STATES * sizeof(double));
     }
     rodas_bend(&r);
-    rodas_dense(&r, fraction, dense);
-    memcpy(x, r.end, N_STATES * sizeof(double));
+    rodas_dense(&r.path, fraction, dense);
+    memcpy(x, r.path.end, N_STATES * sizeof(double));
     for (int i = 0; i < N_STATES; i++) {
-        embedded[i] = r.end[i] - r.u[RODAS_STAGES - 1][i];
+        embedded[i] = r.path.end[i] - r.u[RODAS_STAGES - 1][i];
     }
 }

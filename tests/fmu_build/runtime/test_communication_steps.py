@@ -121,10 +121,9 @@ def table(figure: str, runs: list[Run], free: Counters, oracle: radau.Trajectory
 
 @pytest.mark.parametrize("figure", ["6a", "8", "10"])
 def test_error_steps_and_events_for_any_communication_steps(car_trailer: Library, figure: str) -> None:
-    """Figures with many events, with none, and with clearance; "flat" is an upper bound, the same for every H.
+    """Figures with many events, with none, and with clearance: the error is flat, and so is the number of steps.
 
-    A communication point ends a step early, so short communication steps give less error than was asked for: at 1 ms
-    and below, what is left is the oracle's own.
+    While nothing is set, communication points lie on the course of integrator steps and do not end them.
     """
     runs, oracle = compare(car_trailer, figure)
     _, free, _ = drive(car_trailer, FIGURES[figure].parameters, np.array([0.0, DURATION]))
@@ -135,16 +134,13 @@ def test_error_steps_and_events_for_any_communication_steps(car_trailer: Library
         # The 100 to 250 steps that the control chooses freely add up to less than twenty times what one may err by,
         # even where the motion of figure 6a builds up: at most to ten times, for 80 sequences of steps of all sizes.
         assert np.all(run.error < 20.0 * run.allowed), run
-        # No sequence is much worse than another: among those 80, up to 100 ms a step, at most 1.8 times.
-        assert np.all(run.error < 3.0 * coarse.error), run
+        # No sequence is much better or worse than another.
+        assert np.all(run.error < 2.0 * coarse.error) and np.all(run.error > 0.5 * coarse.error), run
         # What the oracle passes through is found, each once, and nothing else is. (An error in compression moves it.)
         assert len(run.located) == len(events), run
         np.testing.assert_allclose(run.located, events, rtol=0.0, atol=1e-5)
         # Counted are more: leaving a surface on which the run starts (no clearance), or on which an event has been
         # located to the last bit, is one more at the same instant.
         assert len(events) <= run.counters.events <= 2 * len(events) + 1, run
-        # Every communication point ends a step, every event does; and a point costs one more than a free run at most.
-        assert run.count + len(events) <= run.counters.steps, run
-        assert tries(run.counters) <= run.count + tries(free), run
-    finest = runs[0].counters
-    assert (finest.steps, finest.rejected) == (EQUAL_STEPS["0.1 ms"] + len(events), 0)
+        # Communication points cost no steps, but for the first.
+        assert abs(tries(run.counters) - tries(free)) <= 0.05 * tries(free) + 5, run

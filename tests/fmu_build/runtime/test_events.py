@@ -84,17 +84,24 @@ def test_state_behind_an_event_is_accurate(unit: Callable[..., Unit]) -> None:
         assert error.max() < 5 * tolerance  # with states from the dense output of whole steps: up to 25
 
 
-def test_crossed_and_crossed_back_in_one_step(unit: Callable[..., Unit]) -> None:
-    """Nothing but the relation would make a step shorter than the communication step of 1 s."""
+@pytest.mark.parametrize("disturbed", [False, True])
+def test_crossed_and_crossed_back(unit: Callable[..., Unit], disturbed: bool) -> None:
+    """Nothing but the relation makes a step shorter than ten communication steps: it is looked at at each of their ends.
+
+    If something is set before each step, integrator steps end there too, and quarters of them are looked at.
+    """
     u = unit(PULSE, logging=True)
-    u.set(centre=5.4, half=0.15)
+    half = 0.15 if disturbed else 0.5
+    u.set(centre=5.4, half=half)
     assert u.initialize() == OK
-    for _ in range(10):
+    for n in range(10):
+        if disturbed:
+            u.set(half=half * (1.0 + 1e-15 * (n % 2)))
         assert u.step(1.0) == OK
     print(u.counters(), u.event_times())
-    assert u.counters().steps < 40
-    np.testing.assert_allclose([t for _, t in u.event_times()], [5.25, 5.55], atol=1e-14)
-    assert u.get("y")[0] == pytest.approx(0.3, abs=1e-13)
+    assert u.counters().steps < 60
+    np.testing.assert_allclose([t for _, t in u.event_times()], [5.4 - half, 5.4 + half], atol=1e-14)
+    assert u.get("y")[0] == pytest.approx(2.0 * half, abs=1e-13)
 
 
 def test_time_event_without_states(unit: Callable[..., Unit]) -> None:
