@@ -86,7 +86,7 @@ def test_state_behind_an_event_is_accurate(unit: Callable[..., Unit]) -> None:
 
 @pytest.mark.parametrize("disturbed", [False, True])
 def test_crossed_and_crossed_back(unit: Callable[..., Unit], disturbed: bool) -> None:
-    """Nothing but the relation makes a step shorter than ten communication steps: it is looked at at each of their ends.
+    """Nothing but the relation makes a step shorter than ten communication steps, at whose ends it is looked at.
 
     If something is set before each step, integrator steps end there too, and quarters of them are looked at.
     """
