@@ -11,8 +11,6 @@ enum { SAMPLES = 4 };
 enum { BATCH = 100 };
 static const double BATCH_SHARE = 1e-3;
 
-enum { NO_RELATION = -1 };
-
 /* Inside a step a residual that is zero but for rounding leaves the truth as it is: a drawbar that nothing loads stays
  * on its surface for a whole run, now on this side of it and now on the other by 1e-17 m, and each time would be an
  * event. What holds where a run is started, or where something has been set, is told by the sign alone. */
@@ -20,7 +18,7 @@ static const double ROUNDING = 1e-12; /* of the relation's nominal value */
 
 static double band(int relation) { return ROUNDING * variable_info[relation_reference[relation]].nominal; }
 
-static bool truth(int relation, double z, bool held) { return held ? z >= -band(relation) : z > band(relation); }
+static bool truth(int relation, double z, bool held) { return held ? z > -band(relation) : z > band(relation); }
 
 static void take_truths(const double z[], const bool held[], bool truths[])
 {
@@ -29,25 +27,37 @@ static void take_truths(const double z[], const bool held[], bool truths[])
     }
 }
 
-bool events_settle(Variables *v, bool holds[], Message *why)
+int events_take(Variables *v, bool holds[], bool by_sign)
 {
     double z[AT_LEAST_ONE(N_RELATIONS)];
     int changed = NO_RELATION;
-    for (int round = 0; round < 2 * N_RELATIONS + 2; round++) {
-        model_relations(v, holds, z);
-        changed = NO_RELATION;
-        for (int i = 0; i < N_RELATIONS; i++) {
-            if ((z[i] > 0.0) != holds[i]) {
-                holds[i] = z[i] > 0.0;
-                changed = i;
-            }
+    model_relations(v, holds, z);
+    for (int i = 0; i < N_RELATIONS; i++) {
+        const bool now = by_sign ? z[i] > 0.0 : truth(i, z[i], holds[i]);
+        if (now != holds[i]) {
+            holds[i] = now;
+            changed = i;
         }
+    }
+    return changed;
+}
+
+void events_explain(int relation, double time, Message *why)
+{
+    message_write(why, "the relation %s does not settle at t = %s: its truth depends on itself",
+                  relation_text[relation], quantity(time, "s").text);
+}
+
+bool events_settle(Variables *v, bool holds[], Message *why)
+{
+    int changed = NO_RELATION;
+    for (int round = 0; round < 2 * N_RELATIONS + 2; round++) {
+        changed = events_take(v, holds, true);
         if (changed == NO_RELATION) {
             return true;
         }
     }
-    message_write(why, "the relation %s does not settle at t = %s: its truth depends on itself", relation_text[changed],
-                  quantity(v->time, "s").text);
+    events_explain(changed, v->time, why);
     return false;
 }
 

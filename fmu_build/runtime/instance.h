@@ -3,7 +3,7 @@
  * Everything that changes during a simulation is in State, which holds no pointers: a snapshot is a copy of it.
  * Every function that can fail says why through the log callback, and changes nothing if it refuses its arguments.
  *
- * instance.c has what every simulation needs; stepping.h is about Co-Simulation, coupling.h about what
+ * instance.c has what every simulation needs; discrete.h is about what happens at events, stepping.h is about Co-Simulation, coupling.h about what
  * it adds between units, continuous.h about event mode and
  * Model Exchange, derivatives.h about partial derivatives, snapshot.h about saved states. */
 #ifndef INSTANCE_H
@@ -65,6 +65,17 @@ typedef struct {
     double next_start; /* u at the start of the step that is being made */
 } Coupling;
 
+#if HAS_EVENTS
+/* What discrete.h needs beside variables. */
+typedef struct {
+    int64_t ticks[AT_LEAST_ONE(N_SAMPLES)]; /* the number of the next tick */
+    bool warned[AT_LEAST_ONE(N_CHECKS)];    /* its warning has been given */
+    bool pending;                           /* there is an event to handle before time goes on */
+    bool states_changed;                    /* by an event, and the caller does not know yet */
+    bool ended;                             /* the model has asked to end the simulation */
+} Discrete;
+#endif
+
 typedef struct {
     Use use;
     Phase phase;
@@ -78,8 +89,12 @@ typedef struct {
     bool after_event; /* the last step has ended so */
     bool next_holds[AT_LEAST_ONE(N_RELATIONS)]; /* the truths behind it; otherwise those that are held */
     EventDensity density;
+    bool chattering; /* a step has been given up because of too many events */
     Ramp ramp;
     Integrator integrator;
+#if HAS_EVENTS
+    Discrete discrete;
+#endif
 #if N_COUPLINGS > 0
     Coupling coupling;
 #endif
@@ -108,9 +123,9 @@ Status instance_enter_initialization(Instance *instance);
 Status instance_exit_initialization(Instance *instance);
 Status instance_terminate(Instance *instance);
 
-/* Values by value reference: the index in Variables. */
-Status instance_get(Instance *instance, const unsigned references[], size_t n, double values[]);
-Status instance_set(Instance *instance, const unsigned references[], size_t n, const double values[]);
+/* Values by value reference: the index in Variables. All must be of that type. */
+Status instance_get(Instance *instance, ValueType type, const unsigned references[], size_t n, double values[]);
+Status instance_set(Instance *instance, ValueType type, const unsigned references[], size_t n, const double values[]);
 
 /* For the other files of the runtime. */
 

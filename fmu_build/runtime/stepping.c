@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "coupling.h"
+#include "discrete.h"
 #include "validation.h"
 
 /* More steps than this between two communication points are taken for a run without end. */
@@ -36,11 +37,14 @@ static void log_events(const Instance *instance, const Point *arrival)
 }
 
 /* At an event that waits for the caller the old truths go on to hold. */
-static void commit(State *s, const Point *arrival, bool waits)
+static void commit(State *s, const Point *arrival, bool event, bool waits)
 {
     s->v.time = arrival->time;
     memcpy(&s->v.at[FIRST_STATE], arrival->state, N_STATES * sizeof(double));
     ramp_apply(&s->ramp, &s->v);
+    if (event) {
+        discrete_remember(s);
+    }
     memcpy(s->next_holds, arrival->holds, sizeof s->next_holds);
     s->event_waits = waits;
     if (!waits) {
@@ -63,27 +67,30 @@ static bool advance(Instance *instance, double target, bool events_wait, Message
 {
     State *s = &instance->state;
     Point arrival;
+    const double next = discrete_next_time(s);
     s->current = false;
-    bool fine = integrator_step(&s->integrator, &instance->rodas, &s->v, s->holds, &s->ramp, target, s->tolerance,
-                                &arrival, why) &&
+    bool fine = integrator_step(&s->integrator, &instance->rodas, &s->v, s->holds, &s->ramp, fmin(target, next),
+                                s->tolerance, &arrival, why) &&
                 valid_states(&arrival, s->tolerance, why);
     if (fine && arrival.event) {
         log_events(instance, &arrival);
-        fine = !events_too_dense(&s->density, arrival.time, s->holds, arrival.holds, why);
+        s->chattering = events_too_dense(&s->density, arrival.time, s->holds, arrival.holds, why);
+        fine = !s->chattering;
     }
     if (!fine) {
         rodas_back(&instance->rodas, &s->v);
         return false;
     }
-    commit(s, &arrival, arrival.event && events_wait);
-    return true;
+    const bool event = arrival.event || discrete_is_due_at(arrival.time, next);
+    commit(s, &arrival, event, event && events_wait);
+    return discrete_check(instance, why) && (!event || events_wait || discrete_event(instance, why));
 }
 
 bool stepping_integrate(Instance *instance, double target, const StepOptions *options, Message *why)
 {
     State *s = &instance->state;
     const bool events_wait = s->use == CO_SIMULATION_WITH_EVENTS && options->may_return_early;
-    for (int steps = 0; s->v.time < target && !s->event_waits; steps++) {
+    for (int steps = 0; s->v.time < target && !s->event_waits && !discrete_has_ended(s); steps++) {
         const double start = s->v.time;
         if (steps == MAX_STEPS) {
             message_write(why, "%d integrator steps have led from the communication point to t = %s only", MAX_STEPS,
@@ -109,6 +116,11 @@ Status instance_step(Instance *instance, double time, double size, const StepOpt
     if (!valid_step(s, time, size, &why) || !valid_ramp(s, target, &why) || !instance_settle(instance, &why)) {
         return instance_refuse(instance, &why);
     }
+    if (discrete_has_ended(s)) {
+        message_write(&why, "no step can be made from t = %s: the model has ended the simulation there",
+                      quantity(s->v.time, "s").text);
+        return instance_refuse(instance, &why);
+    }
     if (!s->after_event) {
         events_watch(&s->density, s->v.time, target);
     }
@@ -128,8 +140,11 @@ Status instance_step(Instance *instance, double time, double size, const StepOpt
     s->after_event = s->event_waits;
     if (!arrived || !valid_variables(&s->v, &why)) {
         s->phase = FAILED;
-        return instance_refuse(instance, &why);
+        return s->chattering ? instance_discard(instance, &why) : instance_refuse(instance, &why);
     }
-    *result = (StepResult){.event = s->event_waits, .early = s->v.time < target, .time = s->v.time};
+    *result = (StepResult){.event = s->event_waits,
+                           .early = s->v.time < target,
+                           .ended = discrete_has_ended(s),
+                           .time = s->v.time};
     return STATUS_OK;
 }
