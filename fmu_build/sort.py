@@ -18,6 +18,7 @@ from .ir import (
     Assignment,
     Equation,
     EquationSystem,
+    Relation,
     SortedModel,
     Variable,
     der,
@@ -42,8 +43,8 @@ def sort(system: EquationSystem) -> SortedModel:
     ]
     starts = _starts(system)
     variables |= {
-        r.target: _residual_variable(r, text.text, variables)
-        for r, text in zip(residuals, system.relations, strict=True)
+        r.target: _residual_variable(r, relation, variables)
+        for r, relation in zip(residuals, system.relations, strict=True)
     }
     return SortedModel(
         name=model.name,
@@ -118,12 +119,15 @@ def _copies(system: EquationSystem, variables: dict[str, Variable]) -> list[Assi
     ]
 
 
-def _residual_variable(residual: Assignment, text: str, variables: dict[str, Variable]) -> Variable:
+def _residual_variable(residual: Assignment, relation: Relation, variables: dict[str, Variable]) -> Variable:
     """The residual of a relation as a variable; its unit is that of one of the things compared."""
+    text = f"Positive where {relation.text} ({residual.origin})"
+    if relation.until is not None:  # the nominal value tells the runtime that the residual is exact
+        return Variable(residual.target, text, "s", hidden=True, nominal=0.0)
     terms = sympy.Add.make_args(residual.expression)
     names = [str(s) for term in terms for s in (term, -term) if s.is_Symbol and str(s) in variables]
     unit = variables[names[0]].unit if names else ""
-    return Variable(residual.target, f"Positive where {text} ({residual.origin})", unit, hidden=True)
+    return Variable(residual.target, text, unit, hidden=True)
 
 
 def _assignments(equations: list[Equation], unknowns: list[str]) -> tuple[Assignment, ...]:

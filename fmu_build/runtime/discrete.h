@@ -35,7 +35,7 @@ void discrete_terminate(Instance *instance);
 /* The time of the next event that is known beforehand; INFINITY if there is none. */
 double discrete_next_time(const State *s);
 
-/* Whether an event that is due at `next` is to be handled at `time`: it is there but for rounding. */
+/* Whether an event that is due at `next` is to be handled in a step to `time`: callers sum up their times. */
 bool discrete_is_due_at(double time, double next);
 
 /* Look at the checks (assertions) that concern any time. False: an error, and why. */

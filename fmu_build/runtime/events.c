@@ -109,7 +109,45 @@ static double bisect(const Rodas *r, double before, double behind, Variables *v,
     return behind;
 }
 
-static double share(int sample) { return (double)sample / (double)SAMPLES; }
+#if HAS_EVENTS
+/* Twice as many as long as a residual turns within three of them: one that swings faster than the states do would cross
+ * its surface unseen. */
+enum { MOST_SAMPLES = 256 };
+static const double TURN = 0.5; /* of the residual, from the line through its neighbours */
+
+static bool turns(const double before[], const double z[], const double behind[])
+{
+    for (int i = 0; i < N_RELATIONS; i++) {
+        const double largest = fmax(fabs(z[i]), fmax(fabs(before[i]), fabs(behind[i])));
+        if (fabs(z[i] - 0.5 * (before[i] + behind[i])) > TURN * largest + band(i)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static int samples_of(const Rodas *r, Variables *v, const bool holds[])
+{
+    double z[3][AT_LEAST_ONE(N_RELATIONS)];
+    int samples = SAMPLES;
+    for (int i = 0; i <= samples && samples < MOST_SAMPLES; i++) {
+        (void)changed_at(r, (double)i / (double)samples, v, holds, z[i % 3]);
+        if (i > 1 && turns(z[(i - 2) % 3], z[(i - 1) % 3], z[i % 3])) {
+            samples *= 2;
+            i = -1;
+        }
+    }
+    return samples;
+}
+#else
+static int samples_of(const Rodas *r, Variables *v, const bool holds[])
+{
+    (void)r;
+    (void)v;
+    (void)holds;
+    return SAMPLES;
+}
+#endif
 
 bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving, Event *event)
 {
@@ -118,8 +156,9 @@ bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving,
     if (N_RELATIONS == 0) {
         return false;
     }
-    while (!changed_at(r, share(sample), v, holds, z)) {
-        if (sample == SAMPLES) {
+    const double samples = samples_of(r, v, holds);
+    while (!changed_at(r, sample / samples, v, holds, z)) {
+        if (sample == samples) {
             return false;
         }
         sample++;
@@ -128,7 +167,7 @@ bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving,
         event->fraction = 0.0;
         return true;
     }
-    event->fraction = bisect(r, share(sample - 1), share(sample), v, holds);
+    event->fraction = bisect(r, (sample - 1) / samples, sample / samples, v, holds);
     (void)changed_at(r, event->fraction, v, holds, z);
     take_truths(z, holds, event->truths);
     return true;

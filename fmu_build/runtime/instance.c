@@ -79,12 +79,13 @@ static bool truths_follow(Phase phase) { return (phase & (INSTANTIATED | INITIAL
 static bool settle_start(State *s, Message *why)
 {
     double before[AT_LEAST_ONE(N_STATES)];
+    model_start(&s->v, s->holds);
     for (int round = 0; round < 2 * N_RELATIONS + 2; round++) {
-        memcpy(before, &s->v.at[FIRST_STATE], N_STATES * sizeof(double));
-        model_start(&s->v, s->holds);
         if (!discrete_settle(s, true, why)) {
             return false;
         }
+        memcpy(before, &s->v.at[FIRST_STATE], N_STATES * sizeof(double));
+        model_start(&s->v, s->holds);
         if (memcmp(before, &s->v.at[FIRST_STATE], N_STATES * sizeof(double)) == 0) {
             return true;
         }

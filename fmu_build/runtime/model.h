@@ -68,7 +68,8 @@ extern const VariableInfo variable_info[N_VARIABLES];
 /* The residual of every relation as text, "compression > eps", for messages; one empty string if there are none. */
 extern const char *const relation_text[AT_LEAST_ONE(N_RELATIONS)];
 
-/* The residuals as variables: their indices in Variables.at[]; one 0 if there are none. */
+/* The residuals as variables: their indices in Variables.at[]; one 0 if there are none. One whose nominal value is 0 has
+ * no rounding errors: it is a time less the present one. */
 extern const unsigned relation_reference[AT_LEAST_ONE(N_RELATIONS)];
 
 /* The variables of a coupling, see coupling.h: their indices in Variables.at[]. In the model's equations mean and hold

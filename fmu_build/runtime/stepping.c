@@ -68,9 +68,10 @@ static bool advance(Instance *instance, double target, bool events_wait, Message
     State *s = &instance->state;
     Point arrival;
     const double next = discrete_next_time(s);
+    const double end = discrete_is_due_at(target, next) ? next : target; /* exactly there, for the sake of truths */
     s->current = false;
-    bool fine = integrator_step(&s->integrator, &instance->rodas, &s->v, s->holds, &s->ramp, fmin(target, next),
-                                s->tolerance, &arrival, why) &&
+    bool fine = integrator_step(&s->integrator, &instance->rodas, &s->v, s->holds, &s->ramp, end, s->tolerance,
+                                &arrival, why) &&
                 valid_states(&arrival, s->tolerance, why);
     if (fine && arrival.event) {
         log_events(instance, &arrival);
@@ -81,7 +82,7 @@ static bool advance(Instance *instance, double target, bool events_wait, Message
         rodas_back(&instance->rodas, &s->v);
         return false;
     }
-    const bool event = arrival.event || discrete_is_due_at(arrival.time, next);
+    const bool event = arrival.event || arrival.time >= next;
     commit(s, &arrival, event, event && events_wait);
     return discrete_check(instance, why) && (!event || events_wait || discrete_event(instance, why));
 }
@@ -145,6 +146,6 @@ Status instance_step(Instance *instance, double time, double size, const StepOpt
     *result = (StepResult){.event = s->event_waits,
                            .early = s->v.time < target,
                            .ended = discrete_has_ended(s),
-                           .time = s->v.time};
+                           .time = fmin(s->v.time, target)};
     return STATUS_OK;
 }

@@ -23,7 +23,7 @@ bool valid_reference(unsigned reference, Message *why)
 
 bool valid_type(unsigned reference, ValueType type, Message *why)
 {
-    static const char *const names[] = {
+    static const char *const type_names[] = {
         [REAL] = "a Real", [INTEGER] = "an Integer", [BOOLEAN] = "a Boolean", [ENUMERATION] = "an enumeration"};
     if (!valid_reference(reference, why)) {
         return false;
@@ -31,8 +31,8 @@ bool valid_type(unsigned reference, ValueType type, Message *why)
     if (variable_info[reference].type == type) {
         return true;
     }
-    message_write(why, "%s is %s, not %s", variable_info[reference].name, names[variable_info[reference].type],
-                  names[type]);
+    message_write(why, "%s is %s, not %s", variable_info[reference].name, type_names[variable_info[reference].type],
+                  type_names[type]);
     return false;
 }
 
@@ -92,7 +92,9 @@ bool valid_slope(unsigned reference, double slope, Message *why)
     const VariableInfo *info = &variable_info[reference];
     if (info->kind != INPUT || info->type != REAL || !isfinite(slope)) {
         message_write(why, "the time derivative of %s cannot be set to %s: %s", info->name, quantity(slope, "").text,
-                      info->kind != INPUT || info->type != REAL ? "it is no Real input" : "it must be finite");
+                      info->kind != INPUT ? "it is no input"
+                      : info->type != REAL ? "it is no Real"
+                                           : "it must be finite");
         return false;
     }
     return true;
