@@ -71,6 +71,7 @@ class Interface:
     initial_unknowns: Dependencies = field(hash=False)
     indicator_sources: Dependencies = field(hash=False)
     terminals: tuple[Terminal, ...] = ()
+    has_checks: bool = False  # at any time, so that it has to be told of every step
 
     @property
     def enumerations(self) -> tuple[EnumerationType, ...]:
@@ -97,6 +98,7 @@ def expose(model: SortedModel, identifier: str, terminals: tuple[Terminal, ...] 
         event_indicators=tuple(roles.entry(model.variables[name]) for name in indicators),
         experiment=_experiment(model),
         terminals=terminals,
+        has_checks=bool(model.schedule.check_assignments),
         **_structure(model, entries, indicators),
     )
 

@@ -14,7 +14,6 @@ CAPABILITIES = {
     "canSerializeFMUstate": "true",
     "providesDirectionalDerivative": "true",
 }
-MODEL_EXCHANGE = {"completedIntegratorStepNotNeeded": "true"}
 CO_SIMULATION = {
     "canHandleVariableCommunicationStepSize": "true",
     "canInterpolateInputs": "true",
@@ -36,7 +35,7 @@ def describe(interface: Interface, token: str, sources: Sequence[str]) -> bytes:
     )
     identity = {"modelIdentifier": interface.identifier}
     for tag, capabilities in (
-        ("ModelExchange", CAPABILITIES | MODEL_EXCHANGE),
+        ("ModelExchange", CAPABILITIES | ({} if interface.has_checks else {"completedIntegratorStepNotNeeded": "true"})),
         ("CoSimulation", CAPABILITIES | CO_SIMULATION),
     ):
         kind = etree.SubElement(root, tag, identity | capabilities)

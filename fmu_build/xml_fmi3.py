@@ -39,7 +39,8 @@ def describe(interface: Interface, token: str) -> bytes:
         generationTool=GENERATION_TOOL,
         variableNamingConvention="structured",
     )
-    etree.SubElement(root, "ModelExchange", {"modelIdentifier": interface.identifier} | CAPABILITIES)
+    steps = {"needsCompletedIntegratorStep": "true"} if interface.has_checks else {}
+    etree.SubElement(root, "ModelExchange", {"modelIdentifier": interface.identifier} | CAPABILITIES | steps)
     etree.SubElement(root, "CoSimulation", {"modelIdentifier": interface.identifier} | CAPABILITIES | CO_SIMULATION)
     add_units(root, interface.units)
     if interface.enumerations:

@@ -12,6 +12,7 @@ static const double INDICATOR_SHIFT = 1e-12;
 Status instance_enter_event_mode(Instance *instance)
 {
     State *s = &instance->state;
+    Message why;
     s->phase = EVENT_MODE;
     discrete_remember(s);
     discrete_expect(s);
@@ -20,6 +21,9 @@ Status instance_enter_event_mode(Instance *instance)
         memcpy(s->holds, s->next_holds, sizeof s->holds);
         s->event_waits = false;
         s->current = false;
+        if (!discrete_settle(s, false, &why)) {
+            return instance_refuse(instance, &why);
+        }
     } else {
         s->settled = s->current = false;
     }

@@ -51,8 +51,7 @@ bool discrete_states_changed(State *s);
 
 static inline bool discrete_settle(State *s, bool by_sign, Message *why)
 {
-    (void)by_sign;
-    return events_settle(&s->v, s->holds, why);
+    return !by_sign || events_settle(&s->v, s->holds, why);
 }
 
 static inline void discrete_remember(State *s) { (void)s; }

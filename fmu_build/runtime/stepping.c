@@ -144,7 +144,7 @@ Status instance_step(Instance *instance, double time, double size, const StepOpt
         return s->chattering ? instance_discard(instance, &why) : instance_refuse(instance, &why);
     }
     *result = (StepResult){.event = s->event_waits,
-                           .early = s->v.time < target,
+                           .early = s->v.time < target && (options->may_return_early || !discrete_has_ended(s)),
                            .ended = discrete_has_ended(s),
                            .time = fmin(s->v.time, target)};
     return STATUS_OK;

@@ -49,21 +49,26 @@ class Way:
 
     def run(self, text: str, stop: float, step: float, outputs: list[str], **options: Any) -> np.ndarray:
         """The outputs every ``step``, at events those behind them; with ``tolerance`` (1e-10), ``start_values`` and other options of FMPy's."""
+        result = self.run_until_its_end(text, stop, step, outputs, **options)
+        times = result["time"]
+        rows = [np.flatnonzero(np.abs(times - time) < 1e-9)[-1] for time in np.arange(0.0, stop + step / 2, step)]
+        return result[["time", *outputs]][rows]
+
+    def run_until_its_end(self, text: str, stop: float, step: float, outputs: list[str], **options: Any) -> np.ndarray:
+        """All rows that FMPy gives, up to where the model ends the simulation."""
         self.messages.clear()
         tolerance = options.pop("tolerance", 1e-10)
-        result = fmpy.simulate_fmu(
+        return fmpy.simulate_fmu(
             str(self.built(text, self.fmi)),
             fmi_type=self.interface,
             stop_time=stop,
             output_interval=step,
             output=outputs,
             relative_tolerance=tolerance,
+            debug_logging=True,
             logger=lambda *arguments: self.messages.append(_text(arguments[-1])),
             **options,
         )
-        times = result["time"]
-        rows = [np.flatnonzero(np.abs(times - time) < 1e-9)[-1] for time in np.arange(0.0, stop + step / 2, step)]
-        return result[["time", *outputs]][rows]
 
 
 def _text(message: bytes | str) -> str:
