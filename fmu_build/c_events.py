@@ -47,7 +47,9 @@ def print_events(model: SortedModel, printer: Printer) -> str:
     ]
     functions = [
         function("model_discrete(Variables *v, const bool holds[])", assignment_lines(schedule.assignments, printer)),
-        function("model_checks(Variables *v, const bool holds[])", assignment_lines(schedule.check_assignments, printer)),
+        function(
+            "model_checks(Variables *v, const bool holds[])", assignment_lines(schedule.check_assignments, printer)
+        ),
         _messages(model, printer),
     ]
     return "\n" + "\n".join([*tables, *functions])

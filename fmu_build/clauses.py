@@ -19,7 +19,9 @@ KEYS = {"condition": ("condition", "cond"), "statements": ("equations", "stmts")
 def assigned_names(flat: Node) -> frozenset[str]:
     """The variables that when-clauses assign: they are discrete, whatever their declarations say."""
     chains = (chain for chain in flat["when_chains"])
-    names = {n for chain in chains for block in (chain["first"], *chain["else_when"]) for n in _targets(block["equations"])}
+    names = {
+        n for chain in chains for block in (chain["first"], *chain["else_when"]) for n in _targets(block["equations"])
+    }
     for section in flat["algorithms"]:
         names |= {n for node in section["statements"] if "When" in node for n in _targets([node])}
     return frozenset(names)

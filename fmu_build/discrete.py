@@ -135,9 +135,12 @@ class _Lowering:
 
     def when(self, when: When, values: Values) -> Values:
         """What a when-clause assigns. ``values``: what the statements before it have assigned, in an algorithm."""
-        fires, branches, excluded = sympy.false, [], []
+        branches: list[tuple[sympy.Expr, Values]] = []
+        excluded: list[sympy.Expr] = []
         for branch in when.branches:
-            fires = sympy.Or(*(self._becomes_true(c.xreplace(_symbols(values)), branch.origin) for c in branch.conditions))
+            fires = sympy.Or(
+                *(self._becomes_true(c.xreplace(_symbols(values)), branch.origin) for c in branch.conditions)
+            )
             active = self._flag("fires", sympy.And(fires, *excluded), branch.origin)
             excluded.append(sympy.Not(fires))
             result = dict(values)
@@ -173,7 +176,8 @@ class _Lowering:
                 self._choose(statement, values, guard, simultaneous)
 
     def _choose(self, choice: Choice, values: Values, guard: sympy.Expr, simultaneous: bool) -> None:
-        pairs, excluded = [], []
+        pairs: list[tuple[Values, sympy.Expr]] = []
+        excluded: list[sympy.Expr] = []
         for condition, statements in choice.branches:
             known = {} if simultaneous else _symbols(values)
             self._settle_relations(condition, known)

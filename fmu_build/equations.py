@@ -86,7 +86,9 @@ def _events(events: DiscreteEquations, states: tuple[str, ...], aliases: Names) 
     reinits = [replace(r, state=aliases.get(r.state, r.state)) for r in events.reinits]
     for reinit in reinits:
         if reinit.state not in states:
-            raise BuildError(f"{reinit.origin}: reinit({reinit.state}, ...): it is no state, give it an equation with der()")
+            raise BuildError(
+                f"{reinit.origin}: reinit({reinit.state}, ...): it is no state, give it an equation with der()"
+            )
     before = {symbol(pre(state)): symbol(state) for state in states}
     return substitute(replace(events, reinits=tuple(reinits)), before)
 

@@ -188,7 +188,9 @@ class EventReader(ExpressionReader):
         operand = super().read(node)
         if not operand.is_Symbol:
             place = self.sources.find_place(node)
-            raise BuildError(f"{place}: pre(), edge() and change() take a variable: give this expression a name of its own")
+            raise BuildError(
+                f"{place}: pre(), edge() and change() take a variable: give this expression a name of its own"
+            )
         return str(operand.name)
 
     def _changes_at_events_alone(self, expression: sympy.Expr) -> bool:

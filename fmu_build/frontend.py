@@ -56,10 +56,12 @@ def flatten(path: Path, class_name: str) -> FlatModel:
     constants = _constants(flat["variables"], reader)
     kinds = enumeration_types(flat)
     variables = tuple(
-        _variable(node, flat, reader, constants, kinds) for node in flat["variables"].values() if not _is_text(node, flat)
+        _variable(node, flat, reader, constants, kinds)
+        for node in flat["variables"].values()
+        if not _is_text(node, flat)
     )
     text = class_text(class_name, sources.texts())
-    model = FlatModel(
+    flat_model = FlatModel(
         name=class_name,
         description=flat["model_description"] or "",
         variables=tuple(v for v in variables if v.variability != "constant"),
@@ -72,15 +74,18 @@ def flatten(path: Path, class_name: str) -> FlatModel:
         terminals=read_terminals(text),
         examples=read_examples(text),
     )
-    return _with_equations(model, flat, reader, constants)
+    return _with_equations(flat_model, flat, reader, constants)
 
 
 def _with_equations(model: FlatModel, flat: Node, reader: EventReader, constants: Constants) -> FlatModel:
-    equations, discrete = [], [
-        Alternatives((Assignment(v.name, v.binding, v.origin),))
-        for v in model.variables
-        if v.variability == "discrete" and v.binding is not None and v.causality != "input"
-    ]
+    equations, discrete = (
+        [],
+        [
+            Alternatives((Assignment(v.name, v.binding, v.origin),))
+            for v in model.variables
+            if v.variability == "discrete" and v.binding is not None and v.causality != "input"
+        ],
+    )
     for node in flat["equations"]:
         origin = _equation_origin(node, reader.sources)
         if alternatives := _discrete_equation(node["residual"], origin, flat, reader):
@@ -289,8 +294,8 @@ def _located_message(error: Exception, entry: Path, class_name: str) -> str:
         for diagnostic in rumoca.validate(str(file)):
             if place := re.search(r"\[(.+?:\d+):\d+\]", diagnostic.message):
                 return f"{place.group(1)}: {message}"
-    if name := re.search(r"'([^']+)'", message):
-        word = re.compile(rf"(?<![\w.]){re.escape(name.group(1))}\b")
+    for name in re.findall(r"['`]([^'`]+)['`]|(\w+)\(\.\.\.\)|(\w+) is not a state", message):
+        word = re.compile(rf"(?<![\w.]){re.escape(''.join(name))}(?!\w)")
         for file in files:
             for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), start=1):
                 if word.search(line.partition("//")[0]):

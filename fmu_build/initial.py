@@ -37,9 +37,7 @@ def _is_free(variable: Variable) -> bool:
     return variable.variability == "parameter" and not variable.fixed and variable.binding is None
 
 
-def _split(
-    system: EquationSystem, variables: dict[str, Variable]
-) -> tuple[dict[str, Assignment], list[Equation]]:
+def _split(system: EquationSystem, variables: dict[str, Variable]) -> tuple[dict[str, Assignment], list[Equation]]:
     """Initial equations that give a discrete variable its value before the start, and the others."""
     discrete: dict[str, Assignment] = {}
     continuous = []

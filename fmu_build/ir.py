@@ -2,8 +2,8 @@
 
 Conventions inside expressions: a variable is ``symbol(name)``, the time derivative of ``x`` is ``symbol(der(x))``, its
 value before an event ``symbol(pre(x))`` and the truth value of relation ``i`` is ``holds(i)``. Real literals are SymPy
-Floats of double precision. A Boolean variable is 0 or 1, and true as a condition where it is above 0.5 (``is_true``); an
-enumeration is the number of its literal, from 1.
+Floats of double precision. A Boolean variable is 0 or 1, and true as a condition where it is above 0.5 (``is_true``).
+An enumeration is the number of its literal, from 1.
 """
 
 from __future__ import annotations

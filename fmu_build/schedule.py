@@ -111,9 +111,9 @@ def _memories(
 ) -> tuple[Memory, ...]:
     """Of every discrete variable, and of others whose value before an event is asked for."""
     variables = {v.name: v for v in system.model.variables}
-    symbols = set().union(*(a.expression.free_symbols for a in (*own, *continuous)), *(
-        r.residual.free_symbols for r in system.relations
-    ))
+    symbols = set().union(
+        *(a.expression.free_symbols for a in (*own, *continuous)), *(r.residual.free_symbols for r in system.relations)
+    )
     asked = {s.name for s in symbols}
     calculated = {a.target for a in system.events.assignments if not a.target.startswith("fires[")}
     names = [v.name for v in variables.values() if v.name in calculated or pre(v.name) in asked]
@@ -135,5 +135,5 @@ def _ordered(assignments: Sequence[Assignment]) -> list[Assignment]:
         loop = [name for name, _ in nx.find_cycle(needs)]
         places = ", ".join(dict.fromkeys(by_target[name].origin for name in loop))
         raise BuildError(
-            f"{places}: {', '.join(loop)} depend on each other, and not all are continuous: put pre() around one of them"
+            f"{places}: {', '.join(loop)} depend on each other, and not all are continuous: put pre() around one"
         ) from None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass, replace
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import sympy
 
@@ -13,7 +13,7 @@ T = TypeVar("T")
 
 def substitute(value: T, replacements: Mapping[sympy.Symbol, sympy.Expr]) -> T:
     """``value`` (a frozen dataclass, a tuple or an expression) with ``replacements`` in all its expressions."""
-    return value if not replacements else _substitute(value, replacements)  # type: ignore[no-any-return]
+    return cast(T, _substitute(value, replacements)) if replacements else value
 
 
 def _substitute(value: Any, replacements: Mapping[sympy.Symbol, sympy.Expr]) -> Any:

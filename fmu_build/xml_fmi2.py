@@ -35,7 +35,10 @@ def describe(interface: Interface, token: str, sources: Sequence[str]) -> bytes:
     )
     identity = {"modelIdentifier": interface.identifier}
     for tag, capabilities in (
-        ("ModelExchange", CAPABILITIES | ({} if interface.has_checks else {"completedIntegratorStepNotNeeded": "true"})),
+        (
+            "ModelExchange",
+            CAPABILITIES | ({} if interface.has_checks else {"completedIntegratorStepNotNeeded": "true"}),
+        ),
         ("CoSimulation", CAPABILITIES | CO_SIMULATION),
     ):
         kind = etree.SubElement(root, tag, identity | capabilities)

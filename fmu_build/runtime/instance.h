@@ -3,9 +3,9 @@
  * Everything that changes during a simulation is in State, which holds no pointers: a snapshot is a copy of it.
  * Every function that can fail says why through the log callback, and changes nothing if it refuses its arguments.
  *
- * instance.c has what every simulation needs; discrete.h is about what happens at events, stepping.h is about Co-Simulation, coupling.h about what
- * it adds between units, continuous.h about event mode and
- * Model Exchange, derivatives.h about partial derivatives, snapshot.h about saved states. */
+ * instance.c has what every simulation needs; discrete.h is about what happens at events, stepping.h is about
+ * Co-Simulation, coupling.h about what it adds between units, continuous.h about event mode and Model Exchange,
+ * derivatives.h about partial derivatives, snapshot.h about saved states. */
 #ifndef INSTANCE_H
 #define INSTANCE_H
 

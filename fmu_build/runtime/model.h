@@ -46,7 +46,7 @@ typedef enum {
     STATE,            /* its start value may be set before initialization ends */
     STATE_CALCULATED, /* its start value follows from parameters */
     DERIVATIVE,
-    INPUT,          /* one that is no Real changes at events only */
+    INPUT,           /* one that is no Real changes at events only */
     PARAMETER,       /* tunable: takes effect at the next step */
     FIXED_PARAMETER, /* only start values depend on it: may be set before initialization ends */
     CALCULATED_PARAMETER,
@@ -68,8 +68,8 @@ extern const VariableInfo variable_info[N_VARIABLES];
 /* The residual of every relation as text, "compression > eps", for messages; one empty string if there are none. */
 extern const char *const relation_text[AT_LEAST_ONE(N_RELATIONS)];
 
-/* The residuals as variables: their indices in Variables.at[]; one 0 if there are none. One whose nominal value is 0 has
- * no rounding errors: it is a time less the present one. */
+/* The residuals as variables: their indices in Variables.at[]; one 0 if there are none. One whose nominal value is 0
+ * has no rounding errors: it is a time less the present one. */
 extern const unsigned relation_reference[AT_LEAST_ONE(N_RELATIONS)];
 
 /* The variables of a coupling, see coupling.h: their indices in Variables.at[]. In the model's equations mean and hold
@@ -148,7 +148,8 @@ void model_adjoint(const Variables *v, const bool holds[], bool at_start, Variab
 #include "message.h"
 
 /* Beside N_STATES and so on variables.h says N_MEMORIES, N_REINITS, N_SAMPLES, N_TIME_EVENTS, N_CHECKS, N_EVENT_CHECKS,
- * and the indices of two Boolean variables, INITIAL and TERMINAL. All that follows are indices in Variables.at[] too. */
+ * and the indices of two Boolean variables, INITIAL and TERMINAL. All that follows are indices in Variables.at[] too.
+ */
 
 /* What a variable was before an event: pre(variable). A discrete one that has changed makes one more event. */
 typedef struct {

@@ -23,7 +23,7 @@ bool valid_reference(unsigned reference, Message *why)
 
 bool valid_type(unsigned reference, ValueType type, Message *why)
 {
-    static const char *const type_names[] = {
+    static const char type_names[][16] = {
         [REAL] = "a Real", [INTEGER] = "an Integer", [BOOLEAN] = "a Boolean", [ENUMERATION] = "an enumeration"};
     if (!valid_reference(reference, why)) {
         return false;
@@ -92,7 +92,7 @@ bool valid_slope(unsigned reference, double slope, Message *why)
     const VariableInfo *info = &variable_info[reference];
     if (info->kind != INPUT || info->type != REAL || !isfinite(slope)) {
         message_write(why, "the time derivative of %s cannot be set to %s: %s", info->name, quantity(slope, "").text,
-                      info->kind != INPUT ? "it is no input"
+                      info->kind != INPUT  ? "it is no input"
                       : info->type != REAL ? "it is no Real"
                                            : "it must be finite");
         return false;

@@ -48,7 +48,10 @@ class Way:
     messages: list[str] = field(default_factory=list)
 
     def run(self, text: str, stop: float, step: float, outputs: list[str], **options: Any) -> np.ndarray:
-        """The outputs every ``step``, at events those behind them; with ``tolerance`` (1e-10), ``start_values`` and other options of FMPy's."""
+        """The outputs every ``step``, at events those behind them.
+
+        Options are ``tolerance`` (1e-10), ``start_values`` and others of FMPy's.
+        """
         result = self.run_until_its_end(text, stop, step, outputs, **options)
         times = result["time"]
         rows = [np.flatnonzero(np.abs(times - time) < 1e-9)[-1] for time in np.arange(0.0, stop + step / 2, step)]
