@@ -78,8 +78,9 @@ class Printer(C11CodePrinter):  # type: ignore[misc]
         return f"arctangent({self._print(expr.args[0])})"
 
     def _print_Or(self, expr: sympy.Or) -> str:
-        parts = [f"({self._print(a)})" if isinstance(a, sympy.And) else self._print(a) for a in expr.args]
-        return " || ".join(sorted(parts))
+        """With the brackets that compilers ask for."""
+        arguments = sorted(expr.args, key=sympy.default_sort_key)
+        return " || ".join(f"({self._print(a)})" if isinstance(a, sympy.And) else self._print(a) for a in arguments)
 
     def _print_Piecewise(self, expr: sympy.Piecewise) -> str:
         *branches, (last, _) = expr.args
