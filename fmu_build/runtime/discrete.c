@@ -146,10 +146,19 @@ static bool iterate(Instance *instance, bool *any, Message *why)
 
 static double tick(const State *s, int sample)
 {
-    return s->v.at[samples[sample].start] + (double)s->discrete.ticks[sample] * s->v.at[samples[sample].interval];
+    return s->v.at[samples[sample].start] + s->discrete.ticks[sample] * s->v.at[samples[sample].interval];
 }
 
 static bool is_there(double tick_time, double time) { return tick_time - time <= SAME_TIME * fabs(time); }
+
+/* The number of the last tick up to now, but for rounding; -1 if there was none. */
+static double ticks_passed(const State *s, int sample)
+{
+    const double start = s->v.at[samples[sample].start];
+    const double since = s->v.time * (1.0 + SAME_TIME) - start;
+    return since < 0.0 && !is_there(start, s->v.time) ? -1.0
+                                                      : floor(fmax(since, 0.0) / s->v.at[samples[sample].interval]);
+}
 
 /* Flags of the samples that tick now; false if there are none. */
 static bool begin_ticks(State *s)
@@ -158,9 +167,7 @@ static bool begin_ticks(State *s)
     for (int i = 0; i < N_SAMPLES; i++) {
         const bool ticks = is_there(tick(s, i), s->v.time);
         s->v.at[samples[i].flag] = ticks ? 1.0 : 0.0;
-        while (ticks && is_there(tick(s, i), s->v.time)) {
-            s->discrete.ticks[i]++;
-        }
+        s->discrete.ticks[i] = ticks ? fmax(s->discrete.ticks[i], ticks_passed(s, i)) + 1.0 : s->discrete.ticks[i];
         any = any || ticks;
     }
     return any;
@@ -204,9 +211,10 @@ static bool first_ticks(State *s, Message *why)
                           quantity(start, "s").text, quantity(interval, "s").text);
             return false;
         }
-        s->discrete.ticks[i] = (int64_t)fmax(0.0, floor((s->v.time - start) / interval));
-        while (tick(s, i) < s->v.time && !is_there(s->v.time, tick(s, i))) {
-            s->discrete.ticks[i]++;
+        const double passed = ticks_passed(s, i);
+        s->discrete.ticks[i] = passed;
+        if (passed < 0.0 || !(fabs(tick(s, i) - s->v.time) <= SAME_TIME * fabs(s->v.time))) {
+            s->discrete.ticks[i] = passed + 1.0; /* the one that has passed is over */
         }
     }
     return true;
@@ -240,7 +248,8 @@ double discrete_next_time(const State *s)
 {
     double next = (double)INFINITY;
     for (int i = 0; i < N_SAMPLES; i++) {
-        next = fmin(next, tick(s, i));
+        const double time = tick(s, i);
+        next = time > s->v.time ? fmin(next, time) : next;
     }
     for (int i = 0; i < N_TIME_EVENTS; i++) {
         const double time = s->v.at[time_events[i]];

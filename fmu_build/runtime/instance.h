@@ -68,11 +68,11 @@ typedef struct {
 #if HAS_EVENTS
 /* What discrete.h needs beside variables. */
 typedef struct {
-    int64_t ticks[AT_LEAST_ONE(N_SAMPLES)]; /* the number of the next tick */
-    bool warned[AT_LEAST_ONE(N_CHECKS)];    /* its warning has been given */
-    bool pending;                           /* there is an event to handle before time goes on */
-    bool states_changed;                    /* by an event, and the caller does not know yet */
-    bool ended;                             /* the model has asked to end the simulation */
+    double ticks[AT_LEAST_ONE(N_SAMPLES)]; /* the number of the next tick */
+    bool warned[AT_LEAST_ONE(N_CHECKS)];   /* its warning has been given */
+    bool pending;                          /* there is an event to handle before time goes on */
+    bool states_changed;                   /* by an event, and the caller does not know yet */
+    bool ended;                            /* the model has asked to end the simulation */
 } Discrete;
 #endif
 
