@@ -236,3 +236,23 @@ def test_algorithm_sections(way: Way) -> None:
         assert row["n"] == n, row["time"]
         x = np.exp(-row["time"])
         assert row["y"] == pytest.approx((2 * x if x > 0.5 else 3 * x) + 1, abs=1e-6)
+
+
+TEETH = """
+model Teeth "A relation that changes faster than any state does"
+  Real phi(start=0, fixed=true);
+  output Integer count(start=0, fixed=true);
+equation
+  der(phi) = 1 + 0.1*phi;
+  when sin(20*phi) > 0 then
+    count = pre(count) + 1;
+  end when;
+end Teeth;
+"""
+
+
+def test_a_relation_that_swings_within_a_step_is_seen(co_simulation: Way) -> None:
+    result = co_simulation.run(TEETH, 6.0, 2.0, ["count"])
+    phi = 10 * (np.exp(0.1 * result["time"]) - 1)
+    assert list(result["count"]) == list(np.ceil(20 * phi / (2 * np.pi)))
+    assert result["count"][-1] > 25
