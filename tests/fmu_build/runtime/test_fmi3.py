@@ -111,7 +111,7 @@ def test_sliding_ends_although_every_event_ends_a_step(unit3: Callable[..., Unit
         assert u.call("EnterEventMode") == OK
         u.handle_event()
     assert step.status == DISCARD
-    assert "x > 0" in u.messages("logStatusWarning")[-1]
+    assert "x > 0" in u.log[-1][2]
 
 
 def test_intermediate_update(unit3: Callable[..., Unit3]) -> None:
