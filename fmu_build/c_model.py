@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable
 from dataclasses import fields
-from typing import Any
 
 import sympy
-from sympy.printing.c import C11CodePrinter
 
+from .c_events import event_sizes, print_events
+from .c_text import Printer, assignment_lines, function, identifiers, local_name, string
 from .ir import (
     DEFAULT_TOLERANCE,
     TIME,
     TOKEN_PLACEHOLDER,
-    Assignment,
     Coupling,
     CSources,
     JacobianModel,
@@ -25,91 +23,14 @@ from .ir import (
 )
 from .slices import needed_for, start_value, steady, tunable_parameters
 
-C_KEYWORDS = frozenset(C11CodePrinter.reserved_words) | {"inline", "restrict", "bool", "true", "false", "at"}
-
 
 def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str, coupling: Coupling | None = None) -> CSources:
     """variables.h and model.c of ``model``, with the all-zero placeholder where the content hash will stand."""
-    names = _identifiers(model.value_references)
+    names = identifiers(model.value_references)
     header = _header(model, identifier, names, n_couplings=0 if coupling is None else 1)
-    text = _model(model, jacobian, _Printer(names, steady(model)))
-    return CSources({"variables.h": header, "model.c": text + _coupling(coupling, model)})
-
-
-def _identifiers(names: Iterable[str]) -> dict[str, str]:
-    """Modelica names to distinct C names: ``der(car.body.v)`` to ``der_car_body_v``."""
-    result: dict[str, str] = {}
-    taken: set[str] = set()
-    for name in names:
-        identifier = re.sub(r"\W+", "_", name).strip("_")
-        while identifier in taken or identifier in C_KEYWORDS:
-            identifier += "_"
-        taken.add(identifier)
-        result[name] = identifier
-    return result
-
-
-class _Printer(C11CodePrinter):  # type: ignore[misc]
-    """C expressions over ``v->name``; doubles with the digits that give them back exactly.
-
-    ``steady`` are names of variables that do not change while the states do.
-    """
-
-    def __init__(self, names: dict[str, str], steady: frozenset[str] = frozenset()) -> None:
-        super().__init__()
-        self.names = names
-        self.steady = steady
-
-    def _print_Symbol(self, expr: sympy.Symbol) -> str:
-        if expr.name in self.names:
-            return f"v->{self.names[expr.name]}"
-        return expr.name if expr.name.startswith("holds[") else local_name(expr.name)
-
-    def _print_Float(self, expr: sympy.Float) -> str:
-        return repr(float(expr))
-
-    def _print_Integer(self, expr: sympy.Integer) -> str:
-        return f"{int(expr)}.0"
-
-    def _print_Rational(self, expr: sympy.Rational) -> str:
-        return f"{expr.p}.0/{expr.q}.0"
-
-    def _print_Mul(self, expr: sympy.Mul) -> str:
-        """A quotient of what is known early comes first: no other operation has to wait for that division."""
-        moving = [s for s in expr.free_symbols if s.name not in self.steady]
-        known, rest = expr.as_independent(*moving, as_Add=False)
-        if rest == 1 or known.is_number or sympy.denom(known).is_number:
-            return str(super()._print_Mul(expr))
-        return f"({self._print(known)})*{self.parenthesize(rest, sympy.printing.precedence.PRECEDENCE['Mul'])}"
-
-    def _print_Pow(self, expr: sympy.Pow) -> str:
-        base, exponent = expr.as_base_exp()
-        if exponent.is_Integer and 2 <= abs(int(exponent)) <= 4:
-            factor = self.parenthesize(base, sympy.printing.precedence.PRECEDENCE["Atom"])
-            product = "*".join([factor] * abs(int(exponent)))
-            return f"({product})" if exponent > 0 else f"1.0/({product})"
-        return str(super()._print_Pow(expr))
-
-    def _print_sin(self, expr: sympy.sin) -> str:
-        return f"sine({self._print(expr.args[0])})"
-
-    def _print_atan(self, expr: sympy.atan) -> str:
-        return f"arctangent({self._print(expr.args[0])})"
-
-    def _print_Piecewise(self, expr: sympy.Piecewise) -> str:
-        *branches, (last, _) = expr.args
-        text = str(self._print(last))
-        for value, condition in reversed(branches):
-            text = f"({self._print(condition)} ? {self._print(value)} : {text})"
-        return text
-
-    def text(self, expression: sympy.Expr) -> str:
-        return str(self.doprint(expression))
-
-
-def local_name(name: str) -> str:
-    """The C name of a partial derivative: ``d(car.tyre.F)/d(car.body.v)`` to ``d_car_tyre_F__d_car_body_v``."""
-    return "__".join(re.sub(r"\W+", "_", part).strip("_") for part in name.split("/"))
+    printer = Printer(names, steady(model))
+    text = _model(model, jacobian, printer) + _coupling(coupling, model) + print_events(model, printer)
+    return CSources({"variables.h": header, "model.c": text})
 
 
 def _header(model: SortedModel, identifier: str, names: dict[str, str], n_couplings: int) -> str:
@@ -123,13 +44,14 @@ def _header(model: SortedModel, identifier: str, names: dict[str, str], n_coupli
 #define MODEL_TOKEN "{TOKEN_PLACEHOLDER}"
 #define DEFAULT_TOLERANCE {tolerance!r}
 #define N_COUPLINGS {n_couplings}
+#define HAS_EVENTS {int(not model.schedule.is_empty)}
 
 enum {{
     N_STATES = {len(model.states)},
     N_INPUTS = {len(model.inputs)},
     N_PARAMETERS = {len(model.parameters)},
     N_RELATIONS = {len(model.relations)},
-    N_VARIABLES = {len(names)}
+    N_VARIABLES = {len(names)}{event_sizes(model)}
 }};
 
 typedef union {{
@@ -143,21 +65,21 @@ typedef union {{
 """
 
 
-def _model(model: SortedModel, jacobian: JacobianModel, printer: _Printer) -> str:
-    relations = ", ".join(_string(f"{r.text} ({r.origin})") for r in model.relations) or '""'
+def _model(model: SortedModel, jacobian: JacobianModel, printer: Printer) -> str:
+    relations = ", ".join(string(f"{r.text} ({r.origin})") for r in model.relations) or '""'
     kinds = _kinds(model)
     rows = "\n".join(_info(name, kinds[name], model) for name in model.value_references)
-    outputs = _lines(model.assignments, printer)
-    derivatives = _lines(needed_for(model.derivatives, model), printer)
+    outputs = assignment_lines(model.assignments, printer)
+    derivatives = assignment_lines(needed_for(model.derivatives, model), printer)
     residuals = [relation_name(i) for i in range(len(model.relations))]
     references = [str(model.value_references[name]) for name in residuals] or ["0"]
     sections = [
-        _function("model_parameters(Variables *v)", _lines(model.parameter_assignments, printer)),
-        _function("model_start(Variables *v)", _lines(model.start_assignments, printer)),
-        _function("model_derivatives(Variables *v, const bool holds[])", derivatives),
-        _function("model_outputs(Variables *v, const bool holds[])", outputs),
+        function("model_parameters(Variables *v)", assignment_lines(model.parameter_assignments, printer)),
+        function("model_start(Variables *v, const bool holds[])", assignment_lines(model.start_assignments, printer)),
+        function("model_derivatives(Variables *v, const bool holds[])", derivatives),
+        function("model_outputs(Variables *v, const bool holds[])", outputs),
         _jacobian(model, jacobian, printer),
-        _function("model_relations(Variables *v, const bool holds[], double z[])", _relations(model, printer)),
+        function("model_relations(Variables *v, const bool holds[], double z[])", _relations(model, printer)),
         _chain("model_tangent", jacobian, printer, _tangent),
         _chain("model_adjoint", jacobian, printer, _adjoint),
     ]
@@ -191,10 +113,10 @@ def _coupling(coupling: Coupling | None, model: SortedModel) -> str:
     return "\n".join(["", "const CouplingInfo coupling_info = {", *rows, "};", ""])
 
 
-Direction = Callable[[Iterable[Partials], _Printer], list[str]]
+Direction = Callable[[Iterable[Partials], Printer], list[str]]
 
 
-def _chain(name: str, jacobian: JacobianModel, printer: _Printer, lines: Direction) -> str:
+def _chain(name: str, jacobian: JacobianModel, printer: Printer, lines: Direction) -> str:
     """The chain rule through all assignments, in one direction."""
     start = [f"    {line}" for line in lines(jacobian.start_partials, printer)]
     blocks = [
@@ -204,10 +126,10 @@ def _chain(name: str, jacobian: JacobianModel, printer: _Printer, lines: Directi
     ]
     ordered = blocks if lines is _tangent else blocks[::-1]
     signature = f"{name}(const Variables *v, const bool holds[], bool at_start, Variables *d)"
-    return _function(signature, [line for block in ordered for line in block])
+    return function(signature, [line for block in ordered for line in block])
 
 
-def _tangent(partials: Iterable[Partials], printer: _Printer) -> list[str]:
+def _tangent(partials: Iterable[Partials], printer: Printer) -> list[str]:
     """``d->y = dy/da d->a + dy/db d->b``"""
     lines = []
     for p in partials:
@@ -216,7 +138,7 @@ def _tangent(partials: Iterable[Partials], printer: _Printer) -> list[str]:
     return lines
 
 
-def _adjoint(partials: Iterable[Partials], printer: _Printer) -> list[str]:
+def _adjoint(partials: Iterable[Partials], printer: Printer) -> list[str]:
     """In the reverse order ``d->a += dy/da d->y``, ``d->b += dy/db d->y``"""
     return [
         f"d->{printer.names[name]} += {_product(value, f'd->{printer.names[p.target]}', printer)}; /* {p.origin} */"
@@ -225,35 +147,22 @@ def _adjoint(partials: Iterable[Partials], printer: _Printer) -> list[str]:
     ]
 
 
-def _product(value: sympy.Expr, factor: str, printer: _Printer) -> str:
+def _product(value: sympy.Expr, factor: str, printer: Printer) -> str:
     return factor if value == 1 else f"-{factor}" if value == -1 else f"({printer.text(value)})*{factor}"
 
 
-def _function(signature: str, lines: list[str]) -> str:
-    """A C function; parameters that its lines do not use are marked so."""
-    body = "\n".join(lines)
-    arguments = re.findall(r"(\w+)(?:\[\])?[,)]", signature)
-    unused = [f"(void){a};" for a in arguments if not re.search(rf"\b{a}\b", body)]
-    text = "\n".join(f"    {line}" for line in [*unused, *lines])
-    return f"void {signature}\n{{\n{text}\n}}\n"
-
-
-def _lines(assignments: Iterable[Assignment], printer: _Printer) -> list[str]:
-    return [f"v->{printer.names[a.target]} = {printer.text(a.expression)}; /* {a.origin} */" for a in assignments]
-
-
-def _relations(model: SortedModel, printer: _Printer) -> list[str]:
+def _relations(model: SortedModel, printer: Printer) -> list[str]:
     """Each residual goes to z as soon as it is known: read back later, in pairs, it would stall (1 % of a run)."""
     index = {relation_name(i): i for i in range(len(model.relations))}
     lines = []
     for assignment in needed_for(list(index), model):
-        lines += _lines([assignment], printer)
+        lines += assignment_lines([assignment], printer)
         if assignment.target in index:
             lines.append(f"z[{index[assignment.target]}] = v->{printer.names[assignment.target]};")
     return lines
 
 
-def _jacobian(model: SortedModel, jacobian: JacobianModel, printer: _Printer) -> str:
+def _jacobian(model: SortedModel, jacobian: JacobianModel, printer: Printer) -> str:
     lines = [
         f"const double {local_name(a.target)} = {printer.text(a.expression)}; /* {a.origin} */"
         for a in jacobian.assignments
@@ -264,7 +173,7 @@ def _jacobian(model: SortedModel, jacobian: JacobianModel, printer: _Printer) ->
         lines.append(f"jacobian[{index}] = {printer.text(value)}; /* {comment} */")
     lines += [f"time_derivative[{row}] = {printer.text(value)};" for row, value in jacobian.time_entries.items()]
     signature = "model_jacobian(const Variables *v, const bool holds[], double jacobian[], double time_derivative[])"
-    return _function(signature, [line for line in lines if line])
+    return function(signature, [line for line in lines if line])
 
 
 def _info(name: str, kind: str, model: SortedModel) -> str:
@@ -278,22 +187,21 @@ def _info(name: str, kind: str, model: SortedModel) -> str:
             1.0 if variable.nominal is None else abs(variable.nominal),
         )
     )
-    return f"    {{{_string(name)}, {_string(variable.unit)}, {kind}, {numbers}}},"
+    return f"    {{{string(name)}, {string(variable.unit)}, {variable.type.upper()}, {kind}, {numbers}}},"
 
 
 def _kinds(model: SortedModel) -> dict[str, str]:
     """The VariableKind of every variable; where two apply, the later one."""
-    calculated_starts = [a.target for a in model.start_assignments]
     kinds: dict[str, Iterable[str]] = {
         "OTHER": model.value_references,
         "TIME": (TIME,),
         "STATE": model.states,
-        "STATE_CALCULATED": calculated_starts,
+        "STATE_CALCULATED": model.calculated_states,
         "DERIVATIVE": model.derivatives,
         "INPUT": model.inputs,
         "FIXED_PARAMETER": model.parameters,
         "PARAMETER": tunable_parameters(model),
-        "CALCULATED_PARAMETER": (a.target for a in model.parameter_assignments),
+        "CALCULATED_PARAMETER": (*(a.target for a in model.parameter_assignments), *model.free_parameters),
     }
     return {name: kind for kind, names in kinds.items() for name in names}
 
@@ -302,8 +210,3 @@ def _number(value: float) -> str:
     if value in (float("inf"), -float("inf")):
         return "(double)INFINITY" if value > 0 else "-(double)INFINITY"
     return repr(float(value))
-
-
-def _string(text: Any) -> str:
-    escaped = str(text).replace("\\", "\\\\").replace('"', '\\"')
-    return f'"{escaped}"'

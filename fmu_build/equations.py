@@ -9,11 +9,26 @@ computed is passed on to one whose start value is free.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 import sympy
 
 from .errors import BuildError
-from .ir import TIME, Equation, EquationSystem, FlatModel, Relation, Variable, der, holds, symbol
+from .ir import (
+    TIME,
+    Assignment,
+    DiscreteEquations,
+    Equation,
+    EquationSystem,
+    FlatModel,
+    Relation,
+    Variable,
+    der,
+    holds,
+    pre,
+    symbol,
+)
+from .substitution import substitute
 
 Names = dict[str, str]
 
@@ -43,6 +58,7 @@ def derive(model: FlatModel) -> EquationSystem:
     states, reduced, starts = _choose_states(reduced, algebraics, variables)
     occurring = _symbols(reduced)
     derivatives = [name for name in (der(n) for n in algebraics) if symbol(name) in occurring]
+    initial = substitute(model.initial_equations, replacements)
     unknowns = (*derivatives, *(n for n in algebraics if n not in states))
     return EquationSystem(
         model=model,
@@ -55,7 +71,26 @@ def derive(model: FlatModel) -> EquationSystem:
         bound_parameters=bound,
         starts={name: starts[name].xreplace(values) for name in states if name in starts},
         aliases=aliases,
+        events=_events(substitute(model.events, replacements), states, aliases),
+        initial_equations=tuple(e for e in initial if e.residual != 0),
+        starts_before=tuple(
+            Assignment(pre(v.name), v.start.xreplace(values), v.origin)
+            for v in model.variables
+            if v.variability == "discrete" and v.start is not None
+        ),
     )
+
+
+def _events(events: DiscreteEquations, states: tuple[str, ...], aliases: Names) -> DiscreteEquations:
+    """What happens at events, in states: they have no other value before an event than that which reinit replaces."""
+    reinits = [replace(r, state=aliases.get(r.state, r.state)) for r in events.reinits]
+    for reinit in reinits:
+        if reinit.state not in states:
+            raise BuildError(
+                f"{reinit.origin}: reinit({reinit.state}, ...): it is no state, give it an equation with der()"
+            )
+    before = {symbol(pre(state)): symbol(state) for state in states}
+    return substitute(replace(events, reinits=tuple(reinits)), before)
 
 
 def _symbols(equations: Iterable[Equation]) -> set[sympy.Symbol]:
@@ -105,6 +140,7 @@ def _constants_and_roots(variables: Mapping[str, Variable], aliases: Names) -> d
     for name, root in aliases.items():
         values[symbol(name)] = values.get(symbol(root), symbol(root))
         values[symbol(der(name))] = symbol(der(root))
+        values[symbol(pre(name))] = symbol(pre(root))
     return values
 
 
@@ -117,7 +153,8 @@ def _unique_relations(
     truths: dict[sympy.Symbol, sympy.Symbol] = {}
     for index, relation in enumerate(relations):
         residual = relation.residual.xreplace({**values, **truths})
-        unique.setdefault(residual, Relation(residual, relation.text, relation.origin))
+        until = None if relation.until is None else relation.until.xreplace({**values, **truths})
+        unique.setdefault(residual, Relation(residual, relation.text, relation.origin, until))
         truths[holds(index)] = holds(positions.setdefault(residual, len(positions)))
     return tuple(unique.values()), truths
 
@@ -129,13 +166,18 @@ def _parameters(
     settable: list[str] = []
     bound: dict[str, Equation] = {}
     for v in variables.values():
-        if v.variability != "parameter" or v.name in aliases or symbol(v.name) in replacements:
+        if v.variability != "parameter" or v.name in aliases or symbol(v.name) in replacements or is_free(v):
             continue
         if v.binding is None or v.binding.is_number:
             settable.append(v.name)
         else:
             bound[v.name] = Equation(symbol(v.name) - v.binding.xreplace(replacements), v.origin)
     return tuple(settable), bound
+
+
+def is_free(variable: Variable) -> bool:
+    """Whether it is a parameter that the initial equations determine."""
+    return variable.variability == "parameter" and not variable.fixed and variable.binding is None
 
 
 def _choose_states(

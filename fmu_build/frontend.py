@@ -8,6 +8,7 @@ sources; and it reads every .mo file beside the one it is given, as Modelica's d
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -26,19 +27,18 @@ from .annotations import (
     read_icon,
     read_terminals,
 )
+from .clauses import assigned_names, read_algorithms, read_checks, read_whens
 from .errors import BuildError
-from .expressions import ExpressionReader, Sources, unwrap
-from .ir import Equation, FlatModel, Simulation, Variable
+from .event_expressions import Declared, EventReader, enumeration_types
+from .expressions import Sources, unwrap
+from .ir import Alternatives, Assignment, EnumerationType, Equation, FlatModel, Simulation, Variable
+from .substitution import substitute
 
 UNSUPPORTED_SECTIONS = {
-    "initial_equations": "initial equations",
-    "algorithms": "algorithm sections",
-    "initial_algorithms": "initial algorithm sections",
-    "when_chains": "when equations",
-    "assert_equations": "assert",
-    "initial_assert_equations": "assert",
     "functions": "functions",
 }
+Node = dict[str, Any]
+Constants = dict[sympy.Symbol, sympy.Expr]
 REFERENCE_TOLERANCES = (1e-9, 1e-11)  # relative; the difference between the two tells the accuracy
 STATE_SELECT = {"Never": -2, "Avoid": -1, "Default": 0, "Prefer": 1, "Always": 2}
 
@@ -51,20 +51,22 @@ def flatten(path: Path, class_name: str) -> FlatModel:
     model, sources = _load(path, class_name)
     flat = model.to_dict("flat")
     _refuse_unsupported_sections(flat, sources)
-    reader = ExpressionReader(sources)
+    declared = _declared(flat)
+    reader = EventReader(sources, declared)
     constants = _constants(flat["variables"], reader)
-    variables = tuple(_variable(node, flat, reader, constants) for node in flat["variables"].values())
-    equations = tuple(
-        Equation(reader.read(node["residual"]).xreplace(constants), _equation_origin(node, sources))
-        for node in flat["equations"]
+    kinds = enumeration_types(flat)
+    variables = tuple(
+        _variable(node, flat, reader, constants, kinds)
+        for node in flat["variables"].values()
+        if not _is_text(node, flat)
     )
     text = class_text(class_name, sources.texts())
-    return FlatModel(
+    flat_model = FlatModel(
         name=class_name,
         description=flat["model_description"] or "",
         variables=tuple(v for v in variables if v.variability != "constant"),
-        equations=equations,
-        relations=tuple(reader.relations),
+        equations=(),
+        relations=(),
         experiment=read_experiment(text),
         documentation=read_documentation(text),
         icon=read_icon(text),
@@ -72,6 +74,60 @@ def flatten(path: Path, class_name: str) -> FlatModel:
         terminals=read_terminals(text),
         examples=read_examples(text),
     )
+    return _with_equations(flat_model, flat, reader, constants)
+
+
+def _with_equations(model: FlatModel, flat: Node, reader: EventReader, constants: Constants) -> FlatModel:
+    equations, discrete = (
+        [],
+        [
+            Alternatives((Assignment(v.name, v.binding, v.origin),))
+            for v in model.variables
+            if v.variability == "discrete" and v.binding is not None and v.causality != "input"
+        ],
+    )
+    for node in flat["equations"]:
+        origin = _equation_origin(node, reader.sources)
+        if alternatives := _discrete_equation(node["residual"], origin, flat, reader):
+            discrete.append(alternatives)
+        else:
+            equations.append(Equation(reader.read(node["residual"]), origin))
+    complete = replace(
+        model,
+        equations=tuple(equations),
+        discrete=tuple(discrete),
+        whens=read_whens(flat, reader),
+        algorithms=read_algorithms(flat["algorithms"], reader),
+        checks=read_checks(flat, reader),
+        initial_algorithms=read_algorithms(flat["initial_algorithms"], reader),
+        initial_equations=tuple(
+            Equation(reader.read_event_free(node["residual"]), _equation_origin(node, reader.sources))
+            for node in flat["initial_equations"]
+        ),
+    )
+    complete = replace(
+        complete, relations=tuple(reader.relations), samples=tuple(reader.samples), rounded=tuple(reader.rounded)
+    )
+    return substitute(complete, constants)
+
+
+def _discrete_equation(residual: Node, origin: str, flat: Node, reader: EventReader) -> Alternatives | None:
+    """An equation between discrete variables as the assignments that it may be; None if it is another equation."""
+    body = residual.get("Binary")
+    assigned = assigned_names(flat)
+    if body is None or body["op"] != "Sub":
+        return None
+    options = []
+    for one, other in ((body["lhs"], body["rhs"]), (body["rhs"], body["lhs"])):
+        name = one["VarRef"]["name"]["name"] if "VarRef" in one and not one["VarRef"]["subscripts"] else None
+        if name in reader.declared.discrete and name not in assigned | reader.declared.constant:
+            options.append((name, other))
+    if options:
+        return Alternatives(tuple(Assignment(name, reader.read(other), origin) for name, other in options))
+    if reader.is_discrete_valued(body["lhs"]):
+        text = reader.sources.text(body["span"]) if "span" in body else ""
+        raise BuildError(f"{origin}: {text}: an equation between discrete variables must read: name = expression")
+    return None
 
 
 def simulate(path: Path, class_name: str) -> Simulation:
@@ -133,27 +189,59 @@ def _refuse_unsupported_sections(flat: dict[str, Any], sources: Sources) -> None
             raise BuildError(f"{sources.find_place(first)}: {what}: not supported")
 
 
-def _constants(nodes: dict[str, Any], reader: ExpressionReader) -> dict[sympy.Symbol, sympy.Expr]:
+def _constants(nodes: dict[str, Any], reader: EventReader) -> Constants:
     """Values of Modelica constants: they are put in wherever their names stand."""
-    constants: dict[sympy.Symbol, sympy.Expr] = {}
+    constants: Constants = {}
     for name, node in nodes.items():
-        if unwrap(node["variability"]) == "Constant" and node["binding"] is not None:
-            constants[sympy.Symbol(name, real=True)] = reader.read(node["binding"]).xreplace(constants)
+        is_text = reader.declared.types[name] == "String"
+        if unwrap(node["variability"]) == "Constant" and node["binding"] is not None and not is_text:
+            constants[sympy.Symbol(name, real=True)] = reader.read_event_free(node["binding"]).xreplace(constants)
     return constants
 
 
+def _is_text(node: Node, flat: Node) -> bool:
+    """A String parameter or constant: there is nothing to compute with it."""
+    return flat["variable_type_names"].get(node["name"]) == "String" and unwrap(node["variability"]) in {
+        "Parameter",
+        "Constant",
+    }
+
+
+def _declared(flat: Node) -> Declared:
+    """Which names are discrete, and which are constant."""
+    types, discrete, constant = {}, set(assigned_names(flat)), set()
+    enumerations = enumeration_types(flat)
+    for name, node in flat["variables"].items():
+        kind = flat["variable_type_names"].get(name, "Real")
+        variability = unwrap(node["variability"])
+        types[name] = "Enumeration" if kind in enumerations else kind
+        if variability in {"Parameter", "Constant"}:
+            constant.add(name)
+        if variability == "Discrete" or kind != "Real":
+            discrete.add(name)
+    return Declared(types, frozenset(discrete), frozenset(constant), flat["enum_literal_ordinals"])
+
+
+def _variability(node: Node, declared: Declared) -> str:
+    named = {"Parameter": "parameter", "Constant": "constant"}.get(unwrap(node["variability"]))
+    return named or ("discrete" if node["name"] in declared.discrete else "continuous")
+
+
 def _variable(
-    node: dict[str, Any], flat: dict[str, Any], reader: ExpressionReader, constants: dict[sympy.Symbol, sympy.Expr]
+    node: dict[str, Any], flat: Node, reader: EventReader, constants: Constants, kinds: dict[str, EnumerationType]
 ) -> Variable:
     name, origin = node["name"], reader.sources.place(node["source_span"])
     if node["dims"]:
         raise BuildError(f"{origin}: array {name}: not supported, write scalar variables instead")
-    type_name = flat["variable_type_names"].get(name, "Real")
-    if type_name != "Real":
-        raise BuildError(f"{origin}: {name} is of type {type_name}: only Real is supported")
+    kind = reader.declared.types[name]
+    variability = _variability(node, reader.declared)
+    if kind not in {"Real", "Integer", "Boolean", "Enumeration"}:
+        raise BuildError(f"{origin}: {name} is of type {kind}: supported are Real, Integer, Boolean and enumerations")
 
     def expression(key: str) -> sympy.Expr | None:
-        return None if node[key] is None else reader.read(node[key]).xreplace(constants)
+        with_events = key == "binding" and variability in {"continuous", "discrete"}
+        read = reader.read if with_events else reader.read_event_free
+        return None if node[key] is None else read(node[key]).xreplace(constants)
 
     def number(key: str) -> float | None:
         value = expression(key)
@@ -170,9 +258,11 @@ def _variable(
         unit=node["unit"] or "",
         quantity=node["quantity"] or "",
         causality=causality if is_top_level and causality in {"input", "output"} else "local",
-        variability={"Parameter": "parameter", "Constant": "constant"}.get(unwrap(node["variability"]), "continuous"),
+        variability=variability,
+        type=kind,
+        enumeration=kinds.get(flat["variable_type_names"].get(name, "")),
         start=expression("start"),
-        fixed=bool(fixed[0] if isinstance(fixed, list) else fixed),
+        fixed=variability == "parameter" if fixed is None else bool(fixed[0] if isinstance(fixed, list) else fixed),
         binding=expression("binding"),
         min=number("min"),
         max=number("max"),
@@ -204,8 +294,8 @@ def _located_message(error: Exception, entry: Path, class_name: str) -> str:
         for diagnostic in rumoca.validate(str(file)):
             if place := re.search(r"\[(.+?:\d+):\d+\]", diagnostic.message):
                 return f"{place.group(1)}: {message}"
-    if name := re.search(r"'([^']+)'", message):
-        word = re.compile(rf"(?<![\w.]){re.escape(name.group(1))}\b")
+    for name in re.findall(r"['`]([^'`]+)['`]|(\w+)\(\.\.\.\)|(\w+) is not a state", message):
+        word = re.compile(rf"(?<![\w.]){re.escape(''.join(name))}(?!\w)")
         for file in files:
             for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), start=1):
                 if word.search(line.partition("//")[0]):

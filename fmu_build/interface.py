@@ -5,9 +5,10 @@ The same for every version of FMI; the xml_fmi*.py modules only print it.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from .ir import DEFAULT_TOLERANCE, TIME, SortedModel, Terminal, Variable, relation_name
+from .ir import DEFAULT_TOLERANCE, TIME, EnumerationType, SortedModel, Terminal, Variable, relation_name
 from .slices import dependencies, start_value, tunable_parameters
 
 GENERATION_TOOL = "OverrunHitch fmu_build"
@@ -27,6 +28,15 @@ class Entry:
     derivative_of: str | None
 
     @property
+    def start_text(self) -> str | None:
+        """The start value as XML has it, for the type of the variable."""
+        if self.start is None:
+            return None
+        if self.variable.type == "Boolean":
+            return "true" if self.start else "false"
+        return repr(self.start) if self.variable.type == "Real" else str(int(self.start))
+
+    @property
     def name(self) -> str:
         """The name that users see."""
         return self.variable.name
@@ -37,8 +47,12 @@ class Entry:
         v = self.variable
         numbers = {"min": v.min, "max": v.max, "nominal": v.nominal or None}
         texts = {"unit": v.unit, "quantity": v.quantity}
+        if v.type != "Real":
+            texts["unit"] = ""
+            numbers = {} if v.type == "Boolean" else numbers | {"nominal": None}
+        number = repr if v.type == "Real" else lambda value: str(int(value))
         return {key: text for key, text in texts.items() if text} | {
-            key: repr(value) for key, value in numbers.items() if value is not None
+            key: number(value) for key, value in numbers.items() if value is not None
         }
 
 
@@ -57,6 +71,12 @@ class Interface:
     initial_unknowns: Dependencies = field(hash=False)
     indicator_sources: Dependencies = field(hash=False)
     terminals: tuple[Terminal, ...] = ()
+    has_checks: bool = False  # at any time, so that it has to be told of every step
+
+    @property
+    def enumerations(self) -> tuple[EnumerationType, ...]:
+        """The enumerations of its variables."""
+        return tuple(dict.fromkeys(e.variable.enumeration for e in self.entries if e.variable.enumeration))
 
     @property
     def units(self) -> list[str]:
@@ -78,6 +98,7 @@ def expose(model: SortedModel, identifier: str, terminals: tuple[Terminal, ...] 
         event_indicators=tuple(roles.entry(model.variables[name]) for name in indicators),
         experiment=_experiment(model),
         terminals=terminals,
+        has_checks=bool(model.schedule.check_assignments),
         **_structure(model, entries, indicators),
     )
 
@@ -111,12 +132,12 @@ class _Roles:
         if name == TIME:
             return "independent", "continuous", None
         if name in model.inputs:
-            return "input", "continuous", None
+            return "input", variable.variability, None
         if variable.variability == "parameter":
-            variability = "tunable" if name in self._tunable else "fixed"
+            variability = "tunable" if name in self._tunable and name not in model.free_parameters else "fixed"
             is_settable = name in model.parameters
             return ("parameter" if is_settable else "calculatedParameter"), variability, _initial(is_settable)
-        return variable.causality, "continuous", _initial(name in model.start_values)
+        return variable.causality, variable.variability, _initial(name in model.start_values)
 
 
 def _initial(is_exact: bool) -> str:
@@ -138,7 +159,7 @@ def _structure(model: SortedModel, entries: tuple[Entry, ...], indicators: list[
     sources = dependencies(model)
     order = {entry.name: position for position, entry in enumerate(entries)}
     during = {*model.states, *model.inputs, TIME}
-    starts = {a.target: _sources_of_start(a.expression.free_symbols, sources) for a in model.start_assignments}
+    starts = _sources_of_starts(model, sources)
 
     def now(name: str) -> frozenset[str]:
         return sources.get(name, frozenset((name,)))
@@ -161,5 +182,11 @@ def _structure(model: SortedModel, entries: tuple[Entry, ...], indicators: list[
     }
 
 
-def _sources_of_start(symbols: set[object], sources: dict[str, frozenset[str]]) -> frozenset[str]:
-    return frozenset().union(*(sources.get(str(s), frozenset((str(s),))) for s in symbols))
+def _sources_of_starts(model: SortedModel, sources: Mapping[str, frozenset[str]]) -> dict[str, frozenset[str]]:
+    """What the calculated start values of states depend on."""
+    found: dict[str, frozenset[str]] = {}
+    for assignment in model.start_assignments:
+        names = [str(s) for s in assignment.expression.free_symbols]
+        parts = [found.get(name, sources.get(name, frozenset((name,)))) for name in names]
+        found[assignment.target] = frozenset().union(*parts)
+    return {name: found[name] for name in (*model.calculated_states, *model.free_parameters)}

@@ -1,7 +1,9 @@
 """The values that pass between the stages. All are frozen; expressions are SymPy's.
 
-Conventions inside expressions: a variable is ``symbol(name)``, the time derivative of ``x`` is ``symbol(der(x))`` and
-the truth value of relation ``i`` is ``holds(i)``. Real literals are SymPy Floats of double precision.
+Conventions inside expressions: a variable is ``symbol(name)``, the time derivative of ``x`` is ``symbol(der(x))``, its
+value before an event ``symbol(pre(x))`` and the truth value of relation ``i`` is ``holds(i)``. Real literals are SymPy
+Floats of double precision. A Boolean variable is 0 or 1, and true as a condition where it is above 0.5 (``is_true``).
+An enumeration is the number of its literal, from 1.
 """
 
 from __future__ import annotations
@@ -11,6 +13,8 @@ from dataclasses import dataclass, field
 import sympy
 
 TIME = "time"
+INITIAL = "initial()"  # Boolean variables: true while the model is initialized, and at its end
+TERMINAL = "terminal()"
 TOKEN_PLACEHOLDER = "{00000000-0000-0000-0000-000000000000}"  # stands where the content's hash will stand
 DEFAULT_TOLERANCE = 1e-6  # relative tolerance where the experiment annotation gives none (OpenModelica's default too)
 
@@ -25,6 +29,11 @@ def der(name: str) -> str:
     return f"der({name})"
 
 
+def pre(name: str) -> str:
+    """Name of the value of ``name`` just before an event."""
+    return f"pre({name})"
+
+
 def relation_name(index: int) -> str:
     """Name of the variable that is the residual of relation ``index``."""
     return f"relation[{index + 1}]"
@@ -35,16 +44,46 @@ def holds(index: int) -> sympy.Symbol:
     return sympy.Symbol(f"holds[{index}]")
 
 
+def is_true(name: str) -> sympy.Expr:
+    """The condition that the Boolean variable ``name`` is true."""
+    return symbol(name) > sympy.Float(0.5)
+
+
+def truth(condition: sympy.Expr) -> sympy.Expr:
+    """1 where ``condition`` is true, else 0: what a Boolean variable is set to."""
+    return sympy.Piecewise((sympy.Integer(1), condition), (sympy.Integer(0), True), evaluate=False)
+
+
+class round_down(sympy.Function):  # type: ignore[misc]
+    """The largest integer not above its argument, whose derivative is 0 wherever it has one."""
+
+    nargs = 1
+
+    def fdiff(self, argindex: int = 1) -> sympy.Expr:
+        """0"""
+        return sympy.Integer(0)
+
+
+@dataclass(frozen=True)
+class EnumerationType:
+    """An enumeration: its literals in order; the first is number 1."""
+
+    name: str
+    literals: tuple[str, ...]
+
+
 @dataclass(frozen=True)
 class Variable:
-    """A scalar Real of the flattened model, with the attributes that Modelica gives it."""
+    """A scalar of the flattened model, with the attributes that Modelica gives it."""
 
     name: str
     description: str = ""
     unit: str = ""
     quantity: str = ""
     causality: str = "local"  # local, input, output
-    variability: str = "continuous"  # continuous, parameter, constant
+    variability: str = "continuous"  # continuous, discrete, parameter, constant
+    type: str = "Real"  # Real, Integer, Boolean, Enumeration
+    enumeration: EnumerationType | None = None
     start: sympy.Expr | None = None
     fixed: bool = False
     binding: sympy.Expr | None = None
@@ -67,11 +106,111 @@ class Equation:
 
 @dataclass(frozen=True)
 class Relation:
-    """True where ``residual > 0``."""
+    """True where ``residual > 0``. A time event is true before ``until`` alone, which is constant between events."""
 
     residual: sympy.Expr
     text: str
     origin: str
+    until: sympy.Expr | None = None
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """``target := expression``."""
+
+    target: str
+    expression: sympy.Expr
+    origin: str
+
+
+@dataclass(frozen=True)
+class Alternatives:
+    """One equation between discrete variables, as the assignments that it may be: one or, for ``a = b``, two."""
+
+    assignments: tuple[Assignment, ...]
+
+
+@dataclass(frozen=True)
+class Message:
+    """A text with a value at each ``%s``; each value has a type (see Variable)."""
+
+    format: str
+    values: tuple[tuple[sympy.Expr, str], ...] = ()
+
+
+@dataclass(frozen=True)
+class Check:
+    """What must not be: where ``violated``, the message is given, and a warning or an error; or the model ends."""
+
+    violated: sympy.Expr
+    message: Message
+    kind: str  # WARN, FAIL, END
+    origin: str
+
+
+@dataclass(frozen=True)
+class Reinit:
+    """``state`` gets a new value where ``active``."""
+
+    state: str
+    active: sympy.Expr
+    value: sympy.Expr
+    origin: str
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Statements under conditions; the last condition may be true. With several that hold the first one counts."""
+
+    branches: tuple[tuple[sympy.Expr, tuple[Statement, ...]], ...]
+
+
+@dataclass(frozen=True)
+class WhenBranch:
+    """Statements for the moments at which one of the conditions becomes true."""
+
+    conditions: tuple[sympy.Expr, ...]
+    statements: tuple[Statement, ...]
+    origin: str
+
+
+@dataclass(frozen=True)
+class When:
+    """A when-clause: the first branch, then those of elsewhen."""
+
+    branches: tuple[WhenBranch, ...]
+
+
+@dataclass(frozen=True)
+class Algorithm:
+    """An algorithm section: statements in their order, and the variables that they assign."""
+
+    statements: tuple[Statement, ...]
+    targets: tuple[str, ...]
+    origin: str
+
+
+Statement = Assignment | Reinit | Check | Choice | When
+
+
+@dataclass(frozen=True)
+class Sample:
+    """A clock that ticks at ``start + i*interval``."""
+
+    start: sympy.Expr
+    interval: sympy.Expr
+    origin: str
+
+
+@dataclass(frozen=True)
+class DiscreteEquations:
+    """What is computed at events. Each assignment is to a discrete variable; the order is none."""
+
+    assignments: tuple[Assignment, ...] = ()
+    reinits: tuple[Reinit, ...] = ()
+    checks: tuple[Check, ...] = ()  # first those at events, then those at any time
+    n_event_checks: int = 0
+    samples: tuple[Sample, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -135,6 +274,15 @@ class FlatModel:
     equations: tuple[Equation, ...]
     relations: tuple[Relation, ...]
     experiment: Experiment
+    discrete: tuple[Alternatives, ...] = ()  # equations between discrete variables
+    whens: tuple[When, ...] = ()
+    algorithms: tuple[Algorithm, ...] = ()
+    samples: tuple[Sample, ...] = ()
+    rounded: tuple[Assignment, ...] = ()  # Integer variables that round continuous expressions
+    checks: tuple[Check, ...] = ()
+    initial_equations: tuple[Equation, ...] = ()
+    initial_algorithms: tuple[Algorithm, ...] = ()
+    events: DiscreteEquations = DiscreteEquations()
     documentation: str = ""  # HTML of the Documentation annotation
     icon: str = ""  # Modelica text of the Icon annotation
     couplings: tuple[str, ...] = ()  # arguments of coupling annotations, Modelica text
@@ -173,15 +321,66 @@ class EquationSystem:
     bound_parameters: dict[str, Equation] = field(hash=False)  # residual: parameter - expression
     starts: dict[str, sympy.Expr] = field(hash=False)  # start values of the states, in parameters
     aliases: dict[str, str] = field(hash=False)
+    events: DiscreteEquations = DiscreteEquations()
+    initial_equations: tuple[Equation, ...] = ()
+    initial_unknowns: tuple[str, ...] = ()  # with as many initial_equations, once they are complete
+    starts_before: tuple[Assignment, ...] = ()  # of discrete variables: their values before the start
+    free_parameters: tuple[str, ...] = ()  # which initial equations determine
 
 
 @dataclass(frozen=True)
-class Assignment:
-    """``target := expression``."""
+class ScheduledReinit:
+    """``state`` gets the value of the variable ``value`` where the Boolean variable ``active`` is true."""
 
-    target: str
-    expression: sympy.Expr
-    origin: str
+    state: str
+    active: str
+    value: str
+
+
+@dataclass(frozen=True)
+class ScheduledSample:
+    """The Boolean variable ``flag`` is true at the ticks; the others are variables with its times."""
+
+    flag: str
+    start: str
+    interval: str
+
+
+@dataclass(frozen=True)
+class ScheduledCheck:
+    """The Boolean variable ``violated``, and what follows where it is true; see Check."""
+
+    violated: str
+    message: Message
+    kind: str
+
+
+@dataclass(frozen=True)
+class Memory:
+    """The variable ``before`` keeps the value of ``name`` before an event. If it is discrete, a change is an event."""
+
+    name: str
+    before: str
+    is_discrete: bool
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """What happens at events, in the order in which it can be computed."""
+
+    assignments: tuple[Assignment, ...] = ()
+    check_assignments: tuple[Assignment, ...] = ()  # of checks at any time
+    memories: tuple[Memory, ...] = ()
+    reinits: tuple[ScheduledReinit, ...] = ()
+    samples: tuple[ScheduledSample, ...] = ()
+    time_events: tuple[str, ...] = ()  # variables: the times
+    checks: tuple[ScheduledCheck, ...] = ()
+    n_event_checks: int = 0  # of the checks, the first ones
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether there is nothing but relations."""
+        return not (self.assignments or self.check_assignments or self.memories)
 
 
 @dataclass(frozen=True)
@@ -200,6 +399,25 @@ class SortedModel:
     start_values: dict[str, float] = field(hash=False)  # states whose start is a number
     assignments: tuple[Assignment, ...]
     relations: tuple[Relation, ...]  # the residual of number i is the variable relation_name(i)
+    free_parameters: tuple[str, ...] = ()  # start_assignments calculate them
+    schedule: Schedule = Schedule()
+
+    @property
+    def calculated_states(self) -> tuple[str, ...]:
+        """The states whose start values start_assignments calculate."""
+        targets = {a.target for a in self.start_assignments}
+        return tuple(state for state in self.states if state in targets)
+
+    @property
+    def event_variables(self) -> tuple[str, ...]:
+        """Variables that change at events alone: discrete ones, their values before, and what schedules them."""
+        schedule = self.schedule
+        continuous = {*self.states, *self.derivatives, *(a.target for a in self.assignments)}
+        targets = [a.target for a in (*schedule.assignments, *schedule.check_assignments)]
+        flags = [sample.flag for sample in schedule.samples]
+        before = [memory.before for memory in schedule.memories]
+        always = [] if schedule.is_empty else [INITIAL, TERMINAL]
+        return tuple(dict.fromkeys(n for n in (*targets, *before, *flags, *always) if n not in continuous))
 
     @property
     def derivatives(self) -> tuple[str, ...]:
@@ -213,7 +431,8 @@ class SortedModel:
         calculated = tuple(a.target for a in self.parameter_assignments)
         known = {*leading, *calculated}
         others = tuple(a.target for a in self.assignments if a.target not in known)
-        return {name: index for index, name in enumerate((*leading, *calculated, *others))}
+        discrete = (n for n in (*self.free_parameters, *self.event_variables) if n not in known)
+        return {name: index for index, name in enumerate((*leading, *calculated, *others, *discrete))}
 
 
 @dataclass(frozen=True)

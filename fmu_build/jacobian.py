@@ -43,7 +43,11 @@ def _partials(assignments: tuple[Assignment, ...]) -> tuple[Partials, ...]:
     return tuple(
         Partials(
             a.target,
-            tuple((s.name, a.expression.diff(s)) for s in sorted(a.expression.free_symbols, key=str) if s.is_real),
+            tuple(
+                (s.name, partial)
+                for s in sorted(a.expression.free_symbols, key=str)
+                if s.is_real and (partial := a.expression.diff(s)) != 0
+            ),
             a.origin,
         )
         for a in assignments

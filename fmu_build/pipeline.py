@@ -11,10 +11,12 @@ from .c_elimination import print_elimination
 from .c_model import print_c
 from .compile import compile_library, named_platforms
 from .contents import SOURCES, contents
+from .discrete import lower
 from .elimination import eliminate
 from .equations import derive
 from .fat_mach_o import universal
 from .frontend import flatten, simulate
+from .initial import initialize
 from .interface import expose
 from .ir import TOKEN_PLACEHOLDER, CSources
 from .jacobian import differentiate
@@ -38,7 +40,9 @@ def build(
     chosen = named_platforms(platforms)
     identifier = class_name.rpartition(".")[2]
     flat = flatten(modelica, class_name)  # FlatModel: one class, flattened
-    system = derive(flat)  # EquationSystem: equations, states, relations, parameters
+    plain = lower(flat)  # FlatModel: when-clauses and algorithms have become assignments
+    system = derive(plain)  # EquationSystem: equations, states, relations, parameters
+    system = initialize(system)  # EquationSystem: with as many equations at the start as unknowns
     model = sort(system)  # SortedModel: assignments in the order of computation
     jacobian = differentiate(model)  # JacobianModel: exact partial derivatives
     elimination = eliminate(jacobian.entries, len(model.states))  # Elimination: pivots, pattern of the factors

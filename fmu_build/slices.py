@@ -19,11 +19,12 @@ def dependencies(model: SortedModel) -> dict[str, frozenset[str]]:
 
     A conditional depends on what its condition depends on.
     """
-    known = {name: frozenset((name,)) for name in (*model.states, *model.inputs, *model.parameters, "time")}
+    leaves = (*model.states, *model.inputs, *model.parameters, *model.free_parameters, "time")
+    known = {name: frozenset((name,)) for name in leaves}
     result: dict[str, frozenset[str]] = dict(known)
-    for assignment in model.parameter_assignments:
+    for assignment in (*model.parameter_assignments, *model.schedule.assignments, *model.assignments):
         result[assignment.target] = _sources(assignment.expression, model, result)
-    for assignment in model.assignments:
+    for assignment in model.schedule.check_assignments:
         result[assignment.target] = _sources(assignment.expression, model, result)
     return {name: sources for name, sources in result.items() if name not in known}
 
@@ -31,7 +32,9 @@ def dependencies(model: SortedModel) -> dict[str, frozenset[str]]:
 def tunable_parameters(model: SortedModel) -> frozenset[str]:
     """The parameters, calculated ones included, that more than start values depend on: changing them has an effect."""
     sources = dependencies(model)
-    effective = frozenset().union(*(sources[a.target] for a in model.assignments)) & {*model.parameters}
+    schedule = model.schedule
+    used = (*model.assignments, *schedule.assignments, *schedule.check_assignments)
+    effective = frozenset().union(*(sources.get(a.target, frozenset()) for a in used)) & {*model.parameters}
     calculated = {a.target for a in model.parameter_assignments if sources[a.target] & effective}
     return effective | calculated
 

@@ -6,11 +6,27 @@ block that must be solved together. A block of one equation is solved for its un
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import networkx as nx
 import sympy
 
 from .errors import BuildError
-from .ir import Assignment, Equation, EquationSystem, SortedModel, Variable, der, relation_name, symbol
+from .ir import (
+    INITIAL,
+    TERMINAL,
+    Assignment,
+    Equation,
+    EquationSystem,
+    Relation,
+    SortedModel,
+    Variable,
+    der,
+    relation_name,
+    symbol,
+)
+from .schedule import Scheduled, schedule
+from .slices import reaching
 from .units import per_second
 
 
@@ -18,10 +34,17 @@ def sort(system: EquationSystem) -> SortedModel:
     """The sorted model; BuildError where unknowns cannot be computed one after another."""
     model = system.model
     variables = _with_derivatives(system)
-    residuals = [Assignment(relation_name(i), r.residual, r.origin) for i, r in enumerate(system.relations)]
+    solved = _assignments(list(system.equations), list(system.unknowns))
+    events = schedule(system, solved)
+    variables |= _for_events(events, variables)
+    residuals = [
+        Assignment(relation_name(i), residual, relation.origin)
+        for i, (residual, relation) in enumerate(zip(events.residuals, system.relations, strict=True))
+    ]
+    starts = _starts(system)
     variables |= {
-        r.target: _residual_variable(r, text.text, variables)
-        for r, text in zip(residuals, system.relations, strict=True)
+        r.target: _residual_variable(r, relation, variables)
+        for r, relation in zip(residuals, system.relations, strict=True)
     }
     return SortedModel(
         name=model.name,
@@ -32,19 +55,45 @@ def sort(system: EquationSystem) -> SortedModel:
         inputs=system.inputs,
         parameters=system.parameters,
         parameter_assignments=_assignments(list(system.bound_parameters.values()), list(system.bound_parameters)),
-        start_assignments=tuple(
-            Assignment(state, start, next(v.origin for v in model.variables if v.name == state))
-            for state, start in system.starts.items()
-            if not start.is_number
-        ),
-        start_values={state: float(start) for state, start in system.starts.items() if start.is_number},
-        assignments=(
-            *_assignments(list(system.equations), list(system.unknowns)),
-            *residuals,
-            *_copies(system, variables),
-        ),
+        start_assignments=tuple(a for a in starts if not _is_start_value(a, system)),
+        start_values={a.target: float(a.expression) for a in starts if _is_start_value(a, system)},
+        assignments=(*solved, *residuals, *_copies(system, variables)),
         relations=system.relations,
+        free_parameters=system.free_parameters,
+        schedule=events.schedule,
     )
+
+
+def _for_events(events: Scheduled, variables: dict[str, Variable]) -> dict[str, Variable]:
+    """The variables that events bring along."""
+    if events.schedule.is_empty:
+        return {}
+    own = {v.name: v for v in events.variables}
+    for memory in events.schedule.memories:
+        of = variables[memory.name]
+        own[memory.before] = replace(of, name=memory.before, hidden=True, causality="local", variability="discrete")
+    flags = [Variable(name, type="Boolean", variability="discrete", hidden=True) for name in (INITIAL, TERMINAL)]
+    return own | {flag.name: flag for flag in flags}
+
+
+def _starts(system: EquationSystem) -> tuple[Assignment, ...]:
+    """What states, free parameters and discrete variables before the start are set to, and what that takes."""
+    origins = {v.name: v.origin for v in system.model.variables}
+    if system.initial_unknowns:
+        ordered = _assignments(list(system.initial_equations), list(system.initial_unknowns))
+        known = [a for a in ordered if a.target in system.states and a.expression.is_number]
+        others = [a for a in ordered if a not in known]
+        wanted = {*system.states, *system.free_parameters} - {a.target for a in known}
+        continuous = (*known, *reaching({symbol(name) for name in wanted}, others))
+    else:
+        continuous = tuple(Assignment(state, start, origins[state]) for state, start in system.starts.items())
+    return (*continuous, *system.starts_before)
+
+
+def _is_start_value(assignment: Assignment, system: EquationSystem) -> bool:
+    """Whether it is a number that can be set instead, or that a discrete variable has before the start."""
+    is_kept = assignment.target in system.states or assignment.target.startswith("pre(")
+    return bool(is_kept and assignment.expression.is_number)
 
 
 def _with_derivatives(system: EquationSystem) -> dict[str, Variable]:
@@ -70,12 +119,15 @@ def _copies(system: EquationSystem, variables: dict[str, Variable]) -> list[Assi
     ]
 
 
-def _residual_variable(residual: Assignment, text: str, variables: dict[str, Variable]) -> Variable:
+def _residual_variable(residual: Assignment, relation: Relation, variables: dict[str, Variable]) -> Variable:
     """The residual of a relation as a variable; its unit is that of one of the things compared."""
+    text = f"Positive where {relation.text} ({residual.origin})"
+    if relation.until is not None:  # the nominal value tells the runtime that the residual is exact
+        return Variable(residual.target, text, "s", hidden=True, nominal=0.0)
     terms = sympy.Add.make_args(residual.expression)
     names = [str(s) for term in terms for s in (term, -term) if s.is_Symbol and str(s) in variables]
     unit = variables[names[0]].unit if names else ""
-    return Variable(residual.target, f"Positive where {text} ({residual.origin})", unit, hidden=True)
+    return Variable(residual.target, text, unit, hidden=True)
 
 
 def _assignments(equations: list[Equation], unknowns: list[str]) -> tuple[Assignment, ...]:

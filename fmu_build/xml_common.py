@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from lxml import etree
 
+from .ir import EnumerationType
 from .units import base_unit
 
 LOG_CATEGORIES = {
@@ -27,6 +28,12 @@ def add_units(root: etree._Element, names: Sequence[str]) -> None:
             if base.offset != 0.0:
                 attributes["offset"] = repr(base.offset)
             etree.SubElement(unit, "BaseUnit", attributes)
+
+
+def add_items(element: etree._Element, enumeration: EnumerationType) -> None:
+    """The literals of an enumeration."""
+    for number, literal in enumerate(enumeration.literals, start=1):
+        etree.SubElement(element, "Item", name=literal, value=str(number))
 
 
 def add_log_categories(root: etree._Element) -> None:

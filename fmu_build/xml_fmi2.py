@@ -7,14 +7,13 @@ from collections.abc import Sequence
 from lxml import etree
 
 from .interface import GENERATION_TOOL, Dependencies, Entry, Interface
-from .xml_common import add_log_categories, add_units, to_bytes
+from .xml_common import add_items, add_log_categories, add_units, to_bytes
 
 CAPABILITIES = {
     "canGetAndSetFMUstate": "true",
     "canSerializeFMUstate": "true",
     "providesDirectionalDerivative": "true",
 }
-MODEL_EXCHANGE = {"completedIntegratorStepNotNeeded": "true"}
 CO_SIMULATION = {
     "canHandleVariableCommunicationStepSize": "true",
     "canInterpolateInputs": "true",
@@ -36,7 +35,10 @@ def describe(interface: Interface, token: str, sources: Sequence[str]) -> bytes:
     )
     identity = {"modelIdentifier": interface.identifier}
     for tag, capabilities in (
-        ("ModelExchange", CAPABILITIES | MODEL_EXCHANGE),
+        (
+            "ModelExchange",
+            CAPABILITIES | ({} if interface.has_checks else {"completedIntegratorStepNotNeeded": "true"}),
+        ),
         ("CoSimulation", CAPABILITIES | CO_SIMULATION),
     ):
         kind = etree.SubElement(root, tag, identity | capabilities)
@@ -44,6 +46,7 @@ def describe(interface: Interface, token: str, sources: Sequence[str]) -> bytes:
         for name in sources:
             etree.SubElement(files, "File", name=name)
     add_units(root, interface.units)
+    _add_types(root, interface)
     add_log_categories(root)
     etree.SubElement(root, "DefaultExperiment", interface.experiment)
     listing = etree.SubElement(root, "ModelVariables")
@@ -57,6 +60,14 @@ def describe(interface: Interface, token: str, sources: Sequence[str]) -> bytes:
     return to_bytes(root)
 
 
+def _add_types(root: etree._Element, interface: Interface) -> None:
+    if interface.enumerations:
+        definitions = etree.SubElement(root, "TypeDefinitions")
+        for enumeration in interface.enumerations:
+            kind = etree.SubElement(definitions, "SimpleType", name=enumeration.name)
+            add_items(etree.SubElement(kind, "Enumeration"), enumeration)
+
+
 def _scalar_variable(listing: etree._Element, entry: Entry, index: dict[str, int]) -> None:
     attributes = {"name": entry.name, "valueReference": str(entry.reference)}
     if entry.variable.description:
@@ -64,12 +75,14 @@ def _scalar_variable(listing: etree._Element, entry: Entry, index: dict[str, int
     attributes |= {"causality": entry.causality, "variability": entry.variability}
     if entry.initial:
         attributes["initial"] = entry.initial
-    real = dict(entry.attributes)
-    if entry.start is not None:
-        real["start"] = repr(entry.start)
+    value = dict(entry.attributes)
+    if entry.variable.enumeration:
+        value = {"declaredType": entry.variable.enumeration.name} | value
+    if entry.start_text is not None:
+        value["start"] = entry.start_text
     if entry.derivative_of:
-        real["derivative"] = str(index[entry.derivative_of])
-    etree.SubElement(etree.SubElement(listing, "ScalarVariable", attributes), "Real", real)
+        value["derivative"] = str(index[entry.derivative_of])
+    etree.SubElement(etree.SubElement(listing, "ScalarVariable", attributes), entry.variable.type, value)
 
 
 def _unknowns(structure: etree._Element, tag: str, unknowns: Dependencies, index: dict[str, int]) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from lxml import etree
 
 from .interface import GENERATION_TOOL, Dependencies, Entry, Interface
-from .xml_common import add_log_categories, add_units, to_bytes
+from .xml_common import add_items, add_log_categories, add_units, to_bytes
 
 CAPABILITIES = {
     "canGetAndSetFMUState": "true",
@@ -17,6 +17,7 @@ CAPABILITIES = {
     "providesPerElementDependencies": "true",
     "providesEvaluateDiscreteStates": "true",
 }
+ELEMENTS = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "Enumeration": "Enumeration"}
 CO_SIMULATION = {
     "canHandleVariableCommunicationStepSize": "true",
     "maxOutputDerivativeOrder": "1",
@@ -38,9 +39,14 @@ def describe(interface: Interface, token: str) -> bytes:
         generationTool=GENERATION_TOOL,
         variableNamingConvention="structured",
     )
-    etree.SubElement(root, "ModelExchange", {"modelIdentifier": interface.identifier} | CAPABILITIES)
+    steps = {"needsCompletedIntegratorStep": "true"} if interface.has_checks else {}
+    etree.SubElement(root, "ModelExchange", {"modelIdentifier": interface.identifier} | CAPABILITIES | steps)
     etree.SubElement(root, "CoSimulation", {"modelIdentifier": interface.identifier} | CAPABILITIES | CO_SIMULATION)
     add_units(root, interface.units)
+    if interface.enumerations:
+        definitions = etree.SubElement(root, "TypeDefinitions")
+        for enumeration in interface.enumerations:
+            add_items(etree.SubElement(definitions, "EnumerationType", name=enumeration.name), enumeration)
     add_log_categories(root)
     etree.SubElement(root, "DefaultExperiment", interface.experiment)
     listing = etree.SubElement(root, "ModelVariables")
@@ -98,12 +104,14 @@ def _variable(listing: etree._Element, entry: Entry, reference: dict[str, int]) 
         attributes["intermediateUpdate"] = "true"  # may be read between communication points
     if entry.initial:
         attributes["initial"] = entry.initial
+    if entry.variable.enumeration:
+        attributes["declaredType"] = entry.variable.enumeration.name
     attributes |= entry.attributes
-    if entry.start is not None:
-        attributes["start"] = repr(entry.start)
+    if entry.start_text is not None:
+        attributes["start"] = entry.start_text
     if entry.derivative_of:
         attributes["derivative"] = str(reference[entry.derivative_of])
-    etree.SubElement(listing, "Float64", attributes)
+    etree.SubElement(listing, ELEMENTS[entry.variable.type], attributes)
 
 
 def _unknowns(structure: etree._Element, tag: str, unknowns: Dependencies, reference: dict[str, int]) -> None:

@@ -6,8 +6,21 @@
 
 Status instance_enter_event_mode(Instance *instance);
 
-/* Truths from what has been set. There is nothing else that is discrete: no new event follows, no state is changed. */
-Status instance_update_truths(Instance *instance);
+/* Truths and discrete variables from what has been set, the values before the event staying as they are. */
+Status instance_evaluate_event(Instance *instance);
+
+/* What an event has led to. */
+typedef struct {
+    bool ended;          /* the model asks to end the simulation */
+    bool states_changed; /* and so the caller has to read them again */
+    double next_time;    /* of the next event that is known beforehand; INFINITY if there is none */
+} EventResult;
+
+/* The event, to its end: none follows at the same time. */
+Status instance_handle_event(Instance *instance, EventResult *result);
+
+/* The caller has made a step and stays in continuous time: assertions are looked at. */
+Status instance_complete_step(Instance *instance);
 
 /* To CONTINUOUS in Model Exchange, to STEPPING in Co-Simulation. */
 Status instance_leave_event_mode(Instance *instance);

@@ -11,8 +11,6 @@ enum { SAMPLES = 4 };
 enum { BATCH = 100 };
 static const double BATCH_SHARE = 1e-3;
 
-enum { NO_RELATION = -1 };
-
 /* Inside a step a residual that is zero but for rounding leaves the truth as it is: a drawbar that nothing loads stays
  * on its surface for a whole run, now on this side of it and now on the other by 1e-17 m, and each time would be an
  * event. What holds where a run is started, or where something has been set, is told by the sign alone. */
@@ -20,7 +18,7 @@ static const double ROUNDING = 1e-12; /* of the relation's nominal value */
 
 static double band(int relation) { return ROUNDING * variable_info[relation_reference[relation]].nominal; }
 
-static bool truth(int relation, double z, bool held) { return held ? z >= -band(relation) : z > band(relation); }
+static bool truth(int relation, double z, bool held) { return held ? z > -band(relation) : z > band(relation); }
 
 static void take_truths(const double z[], const bool held[], bool truths[])
 {
@@ -29,25 +27,37 @@ static void take_truths(const double z[], const bool held[], bool truths[])
     }
 }
 
-bool events_settle(Variables *v, bool holds[], Message *why)
+int events_take(Variables *v, bool holds[], bool by_sign)
 {
     double z[AT_LEAST_ONE(N_RELATIONS)];
     int changed = NO_RELATION;
-    for (int round = 0; round < 2 * N_RELATIONS + 2; round++) {
-        model_relations(v, holds, z);
-        changed = NO_RELATION;
-        for (int i = 0; i < N_RELATIONS; i++) {
-            if ((z[i] > 0.0) != holds[i]) {
-                holds[i] = z[i] > 0.0;
-                changed = i;
-            }
+    model_relations(v, holds, z);
+    for (int i = 0; i < N_RELATIONS; i++) {
+        const bool now = by_sign ? z[i] > 0.0 : truth(i, z[i], holds[i]);
+        if (now != holds[i]) {
+            holds[i] = now;
+            changed = i;
         }
+    }
+    return changed;
+}
+
+void events_explain(int relation, double time, Message *why)
+{
+    message_write(why, "the relation %s does not settle at t = %s: its truth depends on itself",
+                  relation_text[relation], quantity(time, "s").text);
+}
+
+bool events_settle(Variables *v, bool holds[], Message *why)
+{
+    int changed = NO_RELATION;
+    for (int round = 0; round < 2 * N_RELATIONS + 2; round++) {
+        changed = events_take(v, holds, true);
         if (changed == NO_RELATION) {
             return true;
         }
     }
-    message_write(why, "the relation %s does not settle at t = %s: its truth depends on itself", relation_text[changed],
-                  quantity(v->time, "s").text);
+    events_explain(changed, v->time, why);
     return false;
 }
 
@@ -100,7 +110,45 @@ static double bisect(const Rodas *r, double before, double behind, Variables *v,
     return behind;
 }
 
-static double share(int sample) { return (double)sample / (double)SAMPLES; }
+#if HAS_EVENTS
+/* Twice as many as long as a residual turns within three of them: one that swings faster than the states do would cross
+ * its surface unseen. */
+enum { MOST_SAMPLES = 256 };
+static const double TURN = 0.5; /* of the residual, from the line through its neighbours */
+
+static bool turns(const double before[], const double z[], const double behind[])
+{
+    for (int i = 0; i < N_RELATIONS; i++) {
+        const double largest = fmax(fabs(z[i]), fmax(fabs(before[i]), fabs(behind[i])));
+        if (fabs(z[i] - 0.5 * (before[i] + behind[i])) > TURN * largest + band(i)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static int samples_of(const Rodas *r, Variables *v, const bool holds[])
+{
+    double z[3][AT_LEAST_ONE(N_RELATIONS)];
+    int samples = SAMPLES;
+    for (int i = 0; i <= samples && samples < MOST_SAMPLES; i++) {
+        (void)changed_at(r, (double)i / (double)samples, v, holds, z[i % 3]);
+        if (i > 1 && turns(z[(i - 2) % 3], z[(i - 1) % 3], z[i % 3])) {
+            samples *= 2;
+            i = -1;
+        }
+    }
+    return samples;
+}
+#else
+static int samples_of(const Rodas *r, Variables *v, const bool holds[])
+{
+    (void)r;
+    (void)v;
+    (void)holds;
+    return SAMPLES;
+}
+#endif
 
 bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving, Event *event)
 {
@@ -109,8 +157,9 @@ bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving,
     if (N_RELATIONS == 0) {
         return false;
     }
-    while (!changed_at(r, share(sample), v, holds, z)) {
-        if (sample == SAMPLES) {
+    const double samples = samples_of(r, v, holds);
+    while (!changed_at(r, sample / samples, v, holds, z)) {
+        if (sample == samples) {
             return false;
         }
         sample++;
@@ -119,7 +168,7 @@ bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving,
         event->fraction = 0.0;
         return true;
     }
-    event->fraction = bisect(r, share(sample - 1), share(sample), v, holds);
+    event->fraction = bisect(r, (sample - 1) / samples, sample / samples, v, holds);
     (void)changed_at(r, event->fraction, v, holds, z);
     take_truths(z, holds, event->truths);
     return true;

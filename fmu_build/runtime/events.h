@@ -6,6 +6,15 @@
 #include "model.h"
 #include "rodas.h"
 
+enum { NO_RELATION = -1 };
+
+/* Evaluate all truths once at the point in v, from the truths that it has now. Not by sign: a residual that is zero but
+ * for rounding leaves its truth as it is. A relation that has changed, or NO_RELATION. */
+int events_take(Variables *v, bool holds[], bool by_sign);
+
+/* The message about a relation that does not come to rest. */
+void events_explain(int relation, double time, Message *why);
+
 /* Evaluate all truths afresh at the point in v, repeatedly, because a relation may depend on another one's truth.
  * False if they do not come to rest (the message names a relation). */
 bool events_settle(Variables *v, bool holds[], Message *why);

@@ -135,7 +135,7 @@ fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
     if (nvr > 0 && (vr == NULL || value == NULL)) {
         return null_argument(component, GET_REAL);
     }
-    return to_fmi2(instance_get(&component->instance, vr, nvr, value));
+    return to_fmi2(instance_get(&component->instance, REAL, vr, nvr, value));
 }
 
 fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Real value[])
@@ -147,7 +147,7 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
     if (nvr > 0 && (vr == NULL || value == NULL)) {
         return null_argument(component, SET_REAL);
     }
-    return to_fmi2(instance_set(&component->instance, vr, nvr, value));
+    return to_fmi2(instance_set(&component->instance, REAL, vr, nvr, value));
 }
 
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference vUnknown_ref[], size_t nUnknown,

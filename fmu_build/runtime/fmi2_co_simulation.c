@@ -1,6 +1,7 @@
 /* FMI 2.0 for Co-Simulation: steps, slopes of inputs and outputs. Every step is made at once, so all questions about
  * the status of one that is still going on are answered by fmi2Discard. */
 #include "derivatives.h"
+#include "discrete.h"
 #include "fmi2_component.h"
 #include "stepping.h"
 
@@ -47,8 +48,9 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint, fmi2R
     if (component == NULL) {
         return fmi2Error;
     }
-    return to_fmi2(
-        instance_step(&component->instance, currentCommunicationPoint, communicationStepSize, &options, &result));
+    const Status status =
+        instance_step(&component->instance, currentCommunicationPoint, communicationStepSize, &options, &result);
+    return status == STATUS_OK && result.ended ? fmi2Discard : to_fmi2(status); /* fmi2Terminated tells which it is */
 }
 
 /* The standard's answer to a question about a status that the unit cannot tell. */
@@ -91,7 +93,7 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s, fmi2Boo
     if (s != fmi2Terminated) {
         return no_status(component, GET_BOOLEAN_STATUS);
     }
-    *value = fmi2False; /* the model never asks to end the simulation */
+    *value = discrete_has_ended(&component->instance.state);
     return fmi2OK;
 }
 

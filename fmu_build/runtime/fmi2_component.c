@@ -154,7 +154,7 @@ fmi2Status no_variables(fmi2Component c, Function function, size_t n)
     if (n == 0) {
         return fmi2OK;
     }
-    message_write(&message, "%s: all variables are of type Real", rules[function].name);
+    message_write(&message, "%s: there are no variables of this type", rules[function].name);
     return report(component, STATUS_ERROR, &message);
 }
 

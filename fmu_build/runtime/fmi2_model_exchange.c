@@ -1,4 +1,6 @@
 /* FMI 2.0 for Model Exchange. */
+#include <math.h>
+
 #include "continuous.h"
 #include "fmi2_component.h"
 
@@ -17,12 +19,15 @@ fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *eventInfo)
     if (eventInfo == NULL) {
         return null_argument(component, NEW_DISCRETE_STATES);
     }
+    EventResult result;
+    const Status status = instance_handle_event(&component->instance, &result);
     *eventInfo = (fmi2EventInfo){.newDiscreteStatesNeeded = fmi2False,
-                                 .terminateSimulation = fmi2False,
+                                 .terminateSimulation = result.ended,
                                  .nominalsOfContinuousStatesChanged = fmi2False,
-                                 .valuesOfContinuousStatesChanged = fmi2False,
-                                 .nextEventTimeDefined = fmi2False};
-    return to_fmi2(instance_update_truths(&component->instance));
+                                 .valuesOfContinuousStatesChanged = result.states_changed,
+                                 .nextEventTimeDefined = isfinite(result.next_time),
+                                 .nextEventTime = isfinite(result.next_time) ? result.next_time : 0.0};
+    return to_fmi2(status);
 }
 
 fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c)
@@ -44,7 +49,7 @@ fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean noSetFMUStat
     }
     *enterEventMode = fmi2False;
     *terminateSimulation = fmi2False;
-    return fmi2OK;
+    return to_fmi2(instance_complete_step(&component->instance));
 }
 
 fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time)

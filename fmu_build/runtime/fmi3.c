@@ -1,6 +1,8 @@
 /* FMI 3.0 (version 3.0.2 of the standard), a thin facade over one instance: what Model Exchange and Co-Simulation
  * share, but for making an instance (fmi3_instantiate.c), saved states (fmi3_state.c) and partial derivatives
  * (fmi3_derivatives.c). */
+#include <math.h>
+
 #include "continuous.h"
 #include "fmi3_component.h"
 
@@ -85,7 +87,7 @@ fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference valueR
     if (nValues > 0 && valueReferences == NULL) {
         return null_argument(component, GET_FLOAT64);
     }
-    return to_fmi3(instance_get(&component->instance, valueReferences, nValueReferences, values));
+    return to_fmi3(instance_get(&component->instance, REAL, valueReferences, nValueReferences, values));
 }
 
 fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
@@ -98,13 +100,13 @@ fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference valueR
     if (nValues > 0 && valueReferences == NULL) {
         return null_argument(component, SET_FLOAT64);
     }
-    return to_fmi3(instance_set(&component->instance, valueReferences, nValueReferences, values));
+    return to_fmi3(instance_set(&component->instance, REAL, valueReferences, nValueReferences, values));
 }
 
 fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance instance)
 {
     Component *component = legal(instance, EVALUATE_DISCRETE_STATES);
-    return component == NULL ? fmi3Error : to_fmi3(instance_update_truths(&component->instance));
+    return component == NULL ? fmi3Error : to_fmi3(instance_evaluate_event(&component->instance));
 }
 
 fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discreteStatesNeedUpdate,
@@ -120,13 +122,15 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discrete
         valuesOfContinuousStatesChanged == NULL || nextEventTimeDefined == NULL || nextEventTime == NULL) {
         return null_argument(component, UPDATE_DISCRETE_STATES);
     }
+    EventResult result;
+    const Status status = instance_handle_event(&component->instance, &result);
     *discreteStatesNeedUpdate = fmi3False;
-    *terminateSimulation = fmi3False;
+    *terminateSimulation = result.ended;
     *nominalsOfContinuousStatesChanged = fmi3False;
-    *valuesOfContinuousStatesChanged = fmi3False;
-    *nextEventTimeDefined = fmi3False;
-    *nextEventTime = 0.0;
-    return to_fmi3(instance_update_truths(&component->instance));
+    *valuesOfContinuousStatesChanged = result.states_changed;
+    *nextEventTimeDefined = isfinite(result.next_time);
+    *nextEventTime = isfinite(result.next_time) ? result.next_time : 0.0;
+    return to_fmi3(status);
 }
 
 /* Never legal: there are no structural parameters to configure. */

@@ -57,7 +57,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
     const Status status =
         instance_step(&component->instance, currentCommunicationPoint, communicationStepSize, &options, &result);
     *eventHandlingNeeded = result.event;
-    *terminateSimulation = fmi3False;
+    *terminateSimulation = result.ended;
     *earlyReturn = result.early;
     *lastSuccessfulTime = result.time;
     return to_fmi3(status);

@@ -170,7 +170,7 @@ fmi3Status no_variables(fmi3Instance instance, Function function, size_t n)
     if (n == 0) {
         return fmi3OK;
     }
-    message_write(&message, "%s: all variables are of type Float64, and there are no clocks", rules[function].name);
+    message_write(&message, "%s: there are no variables of this type", rules[function].name);
     return report(component, STATUS_ERROR, &message);
 }
 

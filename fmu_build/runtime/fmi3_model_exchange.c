@@ -21,7 +21,7 @@ fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean noSetF
     }
     *enterEventMode = fmi3False;
     *terminateSimulation = fmi3False;
-    return fmi3OK;
+    return to_fmi3(instance_complete_step(&component->instance));
 }
 
 fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time)

@@ -1,7 +1,7 @@
-/* FMI 3.0: variables of types that the model does not have, clocks, and model partitions. */
+/* FMI 3.0: variables that are no Float64, clocks, and model partitions. */
 #include "fmi3_component.h"
 
-/* fmi3GetInt8 and fmi3SetInt8, and so on: eleven pairs that differ in nothing but the type. */
+/* fmi3GetInt8 and fmi3SetInt8, and so on: eight pairs that differ in nothing but the type. */
 #define NO_VARIABLES_OF_TYPE(Type)                                                                                     \
     fmi3Status fmi3Get##Type(fmi3Instance instance, const fmi3ValueReference valueReferences[],                        \
                              size_t nValueReferences, fmi3##Type values[], size_t nValues)                             \
@@ -23,12 +23,51 @@ NO_VARIABLES_OF_TYPE(Int8)
 NO_VARIABLES_OF_TYPE(UInt8)
 NO_VARIABLES_OF_TYPE(Int16)
 NO_VARIABLES_OF_TYPE(UInt16)
-NO_VARIABLES_OF_TYPE(Int32)
 NO_VARIABLES_OF_TYPE(UInt32)
-NO_VARIABLES_OF_TYPE(Int64)
 NO_VARIABLES_OF_TYPE(UInt64)
-NO_VARIABLES_OF_TYPE(Boolean)
 NO_VARIABLES_OF_TYPE(String)
+
+/* What Modelica calls Integer, an enumeration, and Boolean. */
+#define VARIABLES_OF_TYPE(Type, TYPE)                                                                                  \
+    fmi3Status fmi3Get##Type(fmi3Instance instance, const fmi3ValueReference valueReferences[],                        \
+                             size_t nValueReferences, fmi3##Type values[], size_t nValues)                             \
+    {                                                                                                                  \
+        Component *component = legal_array(instance, GET_OTHER_TYPE, values, nValues, nValueReferences);               \
+        Status status = STATUS_OK;                                                                                     \
+        if (component == NULL) {                                                                                       \
+            return fmi3Error;                                                                                          \
+        }                                                                                                              \
+        if (nValues > 0 && valueReferences == NULL) {                                                                  \
+            return null_argument(component, GET_OTHER_TYPE);                                                           \
+        }                                                                                                              \
+        for (size_t i = 0; i < nValues && status == STATUS_OK; i++) {                                                  \
+            double number = 0.0;                                                                                       \
+            status = instance_get(&component->instance, TYPE, &valueReferences[i], 1, &number);                        \
+            values[i] = (fmi3##Type)number;                                                                            \
+        }                                                                                                              \
+        return to_fmi3(status);                                                                                        \
+    }                                                                                                                  \
+    fmi3Status fmi3Set##Type(fmi3Instance instance, const fmi3ValueReference valueReferences[],                        \
+                             size_t nValueReferences, const fmi3##Type values[], size_t nValues)                       \
+    {                                                                                                                  \
+        Component *component = legal_array(instance, SET_OTHER_TYPE, values, nValues, nValueReferences);               \
+        Status status = STATUS_OK;                                                                                     \
+        if (component == NULL) {                                                                                       \
+            return fmi3Error;                                                                                          \
+        }                                                                                                              \
+        if (nValues > 0 && valueReferences == NULL) {                                                                  \
+            return null_argument(component, SET_OTHER_TYPE);                                                           \
+        }                                                                                                              \
+        for (size_t i = 0; i < nValues && status == STATUS_OK; i++) {                                                  \
+            const double number = (double)values[i];                                                                   \
+            status = instance_set(&component->instance, TYPE, &valueReferences[i], 1, &number);                        \
+        }                                                                                                              \
+        return to_fmi3(status);                                                                                        \
+    }
+
+VARIABLES_OF_TYPE(Int32, INTEGER)
+VARIABLES_OF_TYPE(Int64, ENUMERATION)
+VARIABLES_OF_TYPE(Boolean, BOOLEAN)
 
 fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                          size_t valueSizes[], fmi3Binary values[], size_t nValues)

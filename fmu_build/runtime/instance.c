@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "coupling.h"
+#include "discrete.h"
 #include "validation.h"
 
 const char *const category_name[N_LOG_CATEGORIES] = {
@@ -66,6 +67,9 @@ void instance_reset(Instance *instance)
         s->v.at[i] = variable_info[i].start;
     }
     s->v.time = 0.0;
+#if HAS_EVENTS
+    s->v.at[INITIAL] = 1.0;
+#endif
 }
 
 void instance_disturb(State *s)
@@ -77,24 +81,44 @@ void instance_disturb(State *s)
 /* While the caller integrates, and when all is over, truths are held. */
 static bool truths_follow(Phase phase) { return (phase & (INSTANTIATED | INITIALIZING | STEPPING | EVENT_MODE)) != 0; }
 
+/* Start values may depend on truths, and truths on start values. */
+static bool settle_start(State *s, Message *why)
+{
+    double before[AT_LEAST_ONE(N_STATES)];
+    model_start(&s->v, s->holds);
+    for (int round = 0; round < 2 * N_RELATIONS + 2; round++) {
+        if (!discrete_settle(s, true, why)) {
+            return false;
+        }
+        memcpy(before, &s->v.at[FIRST_STATE], N_STATES * sizeof(double));
+        model_start(&s->v, s->holds);
+        if (memcmp(before, &s->v.at[FIRST_STATE], N_STATES * sizeof(double)) == 0) {
+            return true;
+        }
+    }
+    message_write(why, "the start values do not settle: they depend on conditions, which depend on them");
+    return false;
+}
+
 bool instance_settle(Instance *instance, Message *why)
 {
     State *s = &instance->state;
     bool holds[AT_LEAST_ONE(N_RELATIONS)];
+    const bool before_start = (s->phase & (INSTANTIATED | INITIALIZING)) != 0;
     if (s->settled) {
         return true;
     }
     model_parameters(&s->v);
-    if ((s->phase & (INSTANTIATED | INITIALIZING)) != 0) {
-        model_start(&s->v);
-    }
     if (truths_follow(s->phase)) {
         memcpy(holds, s->holds, sizeof holds);
-        if (!events_settle(&s->v, holds, why)) {
+        if (!(before_start ? settle_start(s, why) : discrete_settle(s, true, why))) {
+            memcpy(s->holds, holds, sizeof holds);
             return false;
         }
-        memcpy(s->holds, holds, sizeof holds);
-        memcpy(s->next_holds, holds, sizeof holds);
+        memcpy(s->next_holds, s->holds, sizeof holds);
+        if (s->phase == STEPPING && !discrete_event(instance, why)) {
+            return false;
+        }
     }
     s->settled = true;
     return true;
@@ -154,22 +178,26 @@ Status instance_exit_initialization(Instance *instance)
     if (!valid_variables(&s->v, &why) || !valid_states(&start, s->tolerance, &why)) {
         return instance_refuse(instance, &why);
     }
+    if (!discrete_start(instance, &why)) {
+        return instance_refuse(instance, &why);
+    }
     s->phase = s->use == CO_SIMULATION ? STEPPING : EVENT_MODE;
-    return STATUS_OK;
+    return instance_settle(instance, &why) ? STATUS_OK : instance_refuse(instance, &why);
 }
 
 Status instance_terminate(Instance *instance)
 {
+    discrete_terminate(instance);
     instance->state.phase = TERMINATED;
     return STATUS_OK;
 }
 
-Status instance_get(Instance *instance, const unsigned references[], size_t n, double values[])
+Status instance_get(Instance *instance, ValueType type, const unsigned references[], size_t n, double values[])
 {
     State *s = &instance->state;
     Message why;
     for (size_t i = 0; i < n; i++) {
-        if (!valid_reference(references[i], &why)) {
+        if (!valid_type(references[i], type, &why)) {
             return instance_refuse(instance, &why);
         }
     }
@@ -185,12 +213,12 @@ Status instance_get(Instance *instance, const unsigned references[], size_t n, d
     return STATUS_OK;
 }
 
-Status instance_set(Instance *instance, const unsigned references[], size_t n, const double values[])
+Status instance_set(Instance *instance, ValueType type, const unsigned references[], size_t n, const double values[])
 {
     State *s = &instance->state;
     Message why;
     for (size_t i = 0; i < n; i++) {
-        if (!valid_value(references[i], values[i], s->phase, &why)) {
+        if (!valid_type(references[i], type, &why) || !valid_value(references[i], values[i], s->phase, &why)) {
             return instance_refuse(instance, &why);
         }
     }
@@ -200,6 +228,7 @@ Status instance_set(Instance *instance, const unsigned references[], size_t n, c
         if (*value != values[i]) { /* an input held constant must leave no trace in the integration */
             *value = values[i];
             s->settled = s->current = false;
+            discrete_expect(s);
             instance_disturb(s);
         }
     }

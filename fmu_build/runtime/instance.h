@@ -3,9 +3,9 @@
  * Everything that changes during a simulation is in State, which holds no pointers: a snapshot is a copy of it.
  * Every function that can fail says why through the log callback, and changes nothing if it refuses its arguments.
  *
- * instance.c has what every simulation needs; stepping.h is about Co-Simulation, coupling.h about what
- * it adds between units, continuous.h about event mode and
- * Model Exchange, derivatives.h about partial derivatives, snapshot.h about saved states. */
+ * instance.c has what every simulation needs; discrete.h is about what happens at events, stepping.h is about
+ * Co-Simulation, coupling.h about what it adds between units, continuous.h about event mode and Model Exchange,
+ * derivatives.h about partial derivatives, snapshot.h about saved states. */
 #ifndef INSTANCE_H
 #define INSTANCE_H
 
@@ -73,6 +73,17 @@ typedef struct {
     Point arrival;
 } Course;
 
+#if HAS_EVENTS
+/* What discrete.h needs beside variables. */
+typedef struct {
+    double ticks[AT_LEAST_ONE(N_SAMPLES)]; /* the number of the next tick */
+    bool warned[AT_LEAST_ONE(N_CHECKS)];   /* its warning has been given */
+    bool pending;                          /* there is an event to handle before time goes on */
+    bool states_changed;                   /* by an event, and the caller does not know yet */
+    bool ended;                            /* the model has asked to end the simulation */
+} Discrete;
+#endif
+
 typedef struct {
     Use use;
     Phase phase;
@@ -86,10 +97,14 @@ typedef struct {
     bool after_event; /* the last step has ended so */
     bool next_holds[AT_LEAST_ONE(N_RELATIONS)]; /* the truths behind it; otherwise those that are held */
     EventDensity density;
+    bool chattering; /* a step has been given up because of too many events */
     Ramp ramp;
     Integrator integrator;
     bool calm; /* nothing has been set since the last step */
     Course course;
+#if HAS_EVENTS
+    Discrete discrete;
+#endif
 #if N_COUPLINGS > 0
     Coupling coupling;
 #endif
@@ -118,9 +133,9 @@ Status instance_enter_initialization(Instance *instance);
 Status instance_exit_initialization(Instance *instance);
 Status instance_terminate(Instance *instance);
 
-/* Values by value reference: the index in Variables. */
-Status instance_get(Instance *instance, const unsigned references[], size_t n, double values[]);
-Status instance_set(Instance *instance, const unsigned references[], size_t n, const double values[]);
+/* Values by value reference: the index in Variables. All must be of that type. */
+Status instance_get(Instance *instance, ValueType type, const unsigned references[], size_t n, double values[]);
+Status instance_set(Instance *instance, ValueType type, const unsigned references[], size_t n, const double values[]);
 
 /* For the other files of the runtime. */
 

@@ -4,7 +4,8 @@
  * Jacobian and its factors), model.c and elimination.c (everything declared below). The runtime is written against this
  * header alone and is compiled once for each model, so that every size is a compile-time constant.
  *
- * Variables.at[] holds every Real of the model; its index is the FMI value reference. The order is
+ * Variables.at[] holds every variable of the model; its index is the FMI value reference. A Boolean is 0.0 or 1.0, an
+ * Integer or an enumeration a whole number. The order is
  *     time | states | derivatives of the states, in their order | inputs | parameters | calculated parameters | others
  * and the same doubles have readable names in generated code, through the anonymous struct of the union.
  *
@@ -31,7 +32,8 @@
  *   } Variables;
  */
 
-/* and #define N_COUPLINGS 0, or 1: a macro, because it decides what is compiled (see coupling_info below). */
+/* and #define N_COUPLINGS 0, or 1, and HAS_EVENTS 0, or 1: macros, because they decide what is compiled (see
+ * coupling_info and model_discrete below). */
 
 /* ISO C has no arrays of length zero, and a model may have no states or no relations. */
 #define AT_LEAST_ONE(n) ((n) > 0 ? (n) : 1)
@@ -44,16 +46,19 @@ typedef enum {
     STATE,            /* its start value may be set before initialization ends */
     STATE_CALCULATED, /* its start value follows from parameters */
     DERIVATIVE,
-    INPUT,
+    INPUT,           /* one that is no Real changes at events only */
     PARAMETER,       /* tunable: takes effect at the next step */
     FIXED_PARAMETER, /* only start values depend on it: may be set before initialization ends */
     CALCULATED_PARAMETER,
     OTHER /* algebraic variables, outputs among them */
 } VariableKind;
 
+typedef enum { REAL, INTEGER, BOOLEAN, ENUMERATION } ValueType;
+
 typedef struct {
     const char *name; /* Modelica name, as in modelDescription.xml */
     const char *unit; /* "" if the model gives none; "1" is dimensionless */
+    ValueType type;
     VariableKind kind;
     double start, min, max, nominal; /* min, max: -INFINITY, INFINITY if the model gives none */
 } VariableInfo;
@@ -63,7 +68,8 @@ extern const VariableInfo variable_info[N_VARIABLES];
 /* The residual of every relation as text, "compression > eps", for messages; one empty string if there are none. */
 extern const char *const relation_text[AT_LEAST_ONE(N_RELATIONS)];
 
-/* The residuals as variables: their indices in Variables.at[]; one 0 if there are none. */
+/* The residuals as variables: their indices in Variables.at[]; one 0 if there are none. One whose nominal value is 0
+ * has no rounding errors: it is a time less the present one. */
 extern const unsigned relation_reference[AT_LEAST_ONE(N_RELATIONS)];
 
 /* The variables of a coupling, see coupling.h: their indices in Variables.at[]. In the model's equations mean and hold
@@ -110,13 +116,14 @@ void model_subtract_product(const double *restrict jacobian, double shift, const
 /* Calculated parameters, from parameters. */
 void model_parameters(Variables *v);
 
-/* Start values of the states of kind STATE_CALCULATED, from parameters (calculated ones included). */
-void model_start(Variables *v);
+/* Start values of the states of kind STATE_CALCULATED, from parameters (calculated ones included) and all that is given
+ * at the start; it may write other variables on the way. */
+void model_start(Variables *v, const bool holds[]);
 
 /* Derivatives of the states, from time, states, inputs, parameters. */
 void model_derivatives(Variables *v, const bool holds[]);
 
-/* All variables. */
+/* All variables but those that change at events alone. */
 void model_outputs(Variables *v, const bool holds[]);
 
 /* jacobian[e] = d derivative[jacobian_row[e]] / d state[jacobian_column[e]], time_derivative[i] = d derivative[i] / d
@@ -136,4 +143,53 @@ void model_tangent(const Variables *v, const bool holds[], bool at_start, Variab
  * (those of what is calculated are left over from the way). */
 void model_adjoint(const Variables *v, const bool holds[], bool at_start, Variables *d);
 
+#if HAS_EVENTS
+
+#include "message.h"
+
+/* Beside N_STATES and so on variables.h says N_MEMORIES, N_REINITS, N_SAMPLES, N_TIME_EVENTS, N_CHECKS, N_EVENT_CHECKS,
+ * and the indices of two Boolean variables, INITIAL and TERMINAL. All that follows are indices in Variables.at[] too.
+ */
+
+/* What a variable was before an event: pre(variable). A discrete one that has changed makes one more event. */
+typedef struct {
+    unsigned variable, before;
+    bool discrete;
+} Memory;
+
+/* The state gets the value where the Boolean variable active is true. */
+typedef struct {
+    unsigned state, active, value;
+} Reinit;
+
+/* The Boolean variable is true at the times start + i * interval, i = 0, 1, ..., during the event there. */
+typedef struct {
+    unsigned flag, start, interval;
+} Sample;
+
+/* Where the Boolean variable is true: a warning, an error, or the end of the simulation. */
+typedef enum { WARN, FAIL, END } CheckKind;
+typedef struct {
+    unsigned violated;
+    CheckKind kind;
+} Check;
+
+extern const Memory memories[AT_LEAST_ONE(N_MEMORIES)];
+extern const Reinit reinits[AT_LEAST_ONE(N_REINITS)];
+extern const Sample samples[AT_LEAST_ONE(N_SAMPLES)];
+extern const Check checks[AT_LEAST_ONE(N_CHECKS)]; /* the first N_EVENT_CHECKS are computed by model_discrete */
+
+/* The times at which relations in the time alone change. */
+extern const unsigned time_events[AT_LEAST_ONE(N_TIME_EVENTS)];
+
+/* All discrete variables, from those before the event, and what belongs to reinits, samples, time events and checks. */
+void model_discrete(Variables *v, const bool holds[]);
+
+/* The other checks. */
+void model_checks(Variables *v, const bool holds[]);
+
+/* The text of a check. */
+void model_message(const Variables *v, int check, Message *message);
+
+#endif
 #endif

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "coupling.h"
+#include "discrete.h"
 #include "validation.h"
 
 /* More steps than this between two communication points are taken for a run without end. */
@@ -36,11 +37,14 @@ static void log_events(const Instance *instance, const Point *arrival)
 }
 
 /* At an event that waits for the caller the old truths go on to hold. */
-static void commit(State *s, const Point *arrival, bool waits)
+static void commit(State *s, const Point *arrival, bool event, bool waits)
 {
     s->v.time = arrival->time;
     memcpy(&s->v.at[FIRST_STATE], arrival->state, N_STATES * sizeof(double));
     ramp_apply(&s->ramp, &s->v);
+    if (event) {
+        discrete_remember(s);
+    }
     memcpy(s->next_holds, arrival->holds, sizeof s->next_holds);
     s->event_waits = waits;
     if (!waits) {
@@ -82,14 +86,15 @@ static bool make_step(Instance *instance, double limit, Message *why)
 }
 
 /* Begin a step. While nothing is set it may lead beyond the communication point, so that its length is up to its error
- * alone. It is not worth while where inputs change from step to step, nor with a coupling, whose input always does. */
-static bool set_out(Instance *instance, double target, Message *why)
+ * alone, but not beyond the next time event. It is not worth while where inputs change from step to step, nor with a
+ * coupling, whose input always does. */
+static bool set_out(Instance *instance, double target, double next, Message *why)
 {
     State *s = &instance->state;
     Course *course = &s->course;
     const bool may_pass = N_COUPLINGS == 0 && s->calm && !s->ramp.moves && s->stop > target;
     /* What makes a longer step fail may never happen. */
-    if (!(may_pass && make_step(instance, s->stop, why)) && !make_step(instance, target, why)) {
+    if (!(may_pass && make_step(instance, fmin(s->stop, next), why)) && !make_step(instance, target, why)) {
         return false;
     }
     course->open = course->arrival.time > target;
@@ -100,37 +105,48 @@ static bool set_out(Instance *instance, double target, Message *why)
     return true;
 }
 
-/* Go on along the course, at most to target. */
-static bool advance(Instance *instance, double target, bool events_wait, Message *why)
+/* The end of the course has been reached, which began at `start` or before: an event may lie there. */
+static bool arrive(Instance *instance, double start, double next, bool events_wait, Message *why)
 {
     State *s = &instance->state;
-    Course *course = &s->course;
-    const double start = s->v.time;
-    s->current = false;
-    if (!course->open && !set_out(instance, target, why)) {
-        return false;
-    }
-    if (course->open && course->arrival.time > target) {
-        follow(s, target);
-        return true;
-    }
-    course->open = false;
-    if (course->arrival.event) {
-        log_events(instance, &course->arrival);
-        if (events_too_dense(&s->density, course->arrival.time, s->holds, course->arrival.holds, why)) {
+    const Point *arrival = &s->course.arrival;
+    const bool event = arrival->event || arrival->time >= next;
+    s->course.open = false;
+    if (arrival->event) {
+        log_events(instance, arrival);
+        s->chattering = events_too_dense(&s->density, arrival->time, s->holds, arrival->holds, why);
+        if (s->chattering) {
             follow(s, start);
             return false;
         }
     }
-    commit(s, &course->arrival, course->arrival.event && events_wait);
-    return true;
+    commit(s, arrival, event, event && events_wait);
+    return discrete_check(instance, why) && (!event || events_wait || discrete_event(instance, why));
+}
+
+/* Go on along the course, at most to target. */
+static bool advance(Instance *instance, double target, bool events_wait, Message *why)
+{
+    State *s = &instance->state;
+    const double start = s->v.time;
+    const double next = discrete_next_time(s);
+    const double end = discrete_is_due_at(target, next) ? next : target; /* exactly there, for the sake of truths */
+    s->current = false;
+    if (!s->course.open && !set_out(instance, end, next, why)) {
+        return false;
+    }
+    if (s->course.open && s->course.arrival.time > end) {
+        follow(s, end);
+        return discrete_check(instance, why);
+    }
+    return arrive(instance, start, next, events_wait, why);
 }
 
 bool stepping_integrate(Instance *instance, double target, const StepOptions *options, Message *why)
 {
     State *s = &instance->state;
     const bool events_wait = s->use == CO_SIMULATION_WITH_EVENTS && options->may_return_early;
-    for (int steps = 0; s->v.time < target && !s->event_waits; steps++) {
+    for (int steps = 0; s->v.time < target && !s->event_waits && !discrete_has_ended(s); steps++) {
         const double start = s->v.time;
         if (steps == MAX_STEPS) {
             message_write(why, "%d integrator steps have led from the communication point to t = %s only", MAX_STEPS,
@@ -176,6 +192,11 @@ Status instance_step(Instance *instance, double time, double size, const StepOpt
     if (!valid_step(s, time, size, &why) || !valid_ramp(s, target, &why) || !instance_settle(instance, &why)) {
         return instance_refuse(instance, &why);
     }
+    if (discrete_has_ended(s)) {
+        message_write(&why, "no step can be made from t = %s: the model has ended the simulation there",
+                      quantity(s->v.time, "s").text);
+        return instance_refuse(instance, &why);
+    }
     if (!s->after_event) {
         events_watch(&s->density, s->v.time, target);
     }
@@ -197,8 +218,11 @@ Status instance_step(Instance *instance, double time, double size, const StepOpt
     s->calm = true;
     if (!arrived || !valid_variables(&s->v, &why)) {
         s->phase = FAILED;
-        return instance_refuse(instance, &why);
+        return s->chattering ? instance_discard(instance, &why) : instance_refuse(instance, &why);
     }
-    *result = (StepResult){.event = s->event_waits, .early = s->v.time < target, .time = s->v.time};
+    *result = (StepResult){.event = s->event_waits,
+                           .early = s->v.time < target && (options->may_return_early || !discrete_has_ended(s)),
+                           .ended = discrete_has_ended(s),
+                           .time = fmin(s->v.time, target)};
     return STATUS_OK;
 }

@@ -17,6 +17,7 @@ typedef struct {
 typedef struct {
     bool event;  /* the caller has to handle it before the next step */
     bool early;  /* the step has ended before its end */
+    bool ended;  /* because the model asks to end the simulation */
     double time; /* where it has ended */
 } StepResult;
 

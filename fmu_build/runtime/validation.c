@@ -21,13 +21,30 @@ bool valid_reference(unsigned reference, Message *why)
     return false;
 }
 
+bool valid_type(unsigned reference, ValueType type, Message *why)
+{
+    static const char type_names[][16] = {
+        [REAL] = "a Real", [INTEGER] = "an Integer", [BOOLEAN] = "a Boolean", [ENUMERATION] = "an enumeration"};
+    if (!valid_reference(reference, why)) {
+        return false;
+    }
+    if (variable_info[reference].type == type) {
+        return true;
+    }
+    message_write(why, "%s is %s, not %s", variable_info[reference].name, type_names[variable_info[reference].type],
+                  type_names[type]);
+    return false;
+}
+
 /* NULL if a variable may be set in the phase, otherwise why not. */
-static const char *why_not_set(VariableKind kind, Phase phase)
+static const char *why_not_set(VariableKind kind, ValueType type, Phase phase)
 {
     const bool before_start = phase == INSTANTIATED || phase == INITIALIZING;
     switch (kind) {
     case INPUT:
-        return NULL;
+        return type != REAL && phase == CONTINUOUS
+                   ? "it is no Real, which can be set in event mode but not between events"
+                   : NULL;
     case PARAMETER:
         return phase == CONTINUOUS ? "it is a parameter, which can be set in event mode but not between events" : NULL;
     case STATE:
@@ -54,7 +71,7 @@ bool valid_value(unsigned reference, double value, Phase phase, Message *why)
         return false;
     }
     const VariableInfo *info = &variable_info[reference];
-    const char *obstacle = why_not_set(info->kind, phase);
+    const char *obstacle = why_not_set(info->kind, info->type, phase);
     if (obstacle != NULL) {
         message_write(why, "%s cannot be set: %s", info->name, obstacle);
         return false;
@@ -73,9 +90,11 @@ bool valid_slope(unsigned reference, double slope, Message *why)
         return false;
     }
     const VariableInfo *info = &variable_info[reference];
-    if (info->kind != INPUT || !isfinite(slope)) {
+    if (info->kind != INPUT || info->type != REAL || !isfinite(slope)) {
         message_write(why, "the time derivative of %s cannot be set to %s: %s", info->name, quantity(slope, "").text,
-                      info->kind != INPUT ? "it is no input" : "it must be finite");
+                      info->kind != INPUT  ? "it is no input"
+                      : info->type != REAL ? "it is no Real"
+                                           : "it must be finite");
         return false;
     }
     return true;

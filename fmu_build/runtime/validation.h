@@ -6,6 +6,7 @@
 
 /* Each returns false with a message that names what is wrong. */
 bool valid_reference(unsigned reference, Message *why);
+bool valid_type(unsigned reference, ValueType type, Message *why);
 bool valid_value(unsigned reference, double value, Phase phase, Message *why);
 bool valid_slope(unsigned reference, double slope, Message *why);
 bool valid_result(unsigned reference, double value, double time, Message *why);

@@ -13,9 +13,11 @@ import pytest
 from fmu_build.c_elimination import print_elimination
 from fmu_build.c_model import print_c
 from fmu_build.compile import RUNTIME, WARNINGS, compiler
+from fmu_build.discrete import lower
 from fmu_build.elimination import eliminate
 from fmu_build.equations import derive
 from fmu_build.frontend import flatten
+from fmu_build.initial import initialize
 from fmu_build.ir import SortedModel
 from fmu_build.jacobian import differentiate
 from fmu_build.slices import start_value
@@ -39,7 +41,7 @@ def modelica_file(tmp_path: Path) -> Writer:
 @pytest.fixture
 def sorted_model(modelica_file: Writer) -> Callable[[str], SortedModel]:
     """Class M of a text, up to the intermediate representation."""
-    return lambda text: sort(derive(flatten(modelica_file(text), "M")))
+    return lambda text: sort(initialize(derive(lower(flatten(modelica_file(text), "M")))))
 
 
 class CompiledModel:
@@ -61,7 +63,7 @@ class CompiledModel:
         for name in (*model.parameters, *model.states, *model.inputs):
             self.at[self.references[name]] = start_value(name, model)
         self._call("model_parameters")
-        self._call("model_start")
+        self._call("model_start", self.relations() > 0)
 
     def _call(self, function: str, *arrays: np.ndarray) -> None:
         getattr(self._library, function)(*(ctypes.c_void_p(a.ctypes.data) for a in (self.at, *arrays)))

@@ -21,13 +21,38 @@ BROKEN = {
     "unbalanced": ("model M\n  Real x;\n  Real y;\nequation\n  x = 1;\nend M;", "M.mo", "unbalanced"),
     "no such class": ("model Other\n  Real x = 1;\nend Other;", "M.mo", "no class M"),
     "der of an expression": ("model M\n  Real x(start=1);\nequation\n  der(x*x) = 1;\nend M;", "M.mo", "der"),
-    "when": (
-        "model M\n  Real x(start=1);\nequation\n  der(x)=1;\n  when x>2 then\n    reinit(x,0);\n  end when;\nend M;",
-        "M.mo:5",
-        "when",
+    "reinit of no state": (
+        "model M\n  Real x(start=1), y;\nequation\n  der(x)=1;\n  y=2*x;\n  when x>2 then\n    reinit(y,0);\n"
+        "  end when;\nend M;",
+        "M.mo:2",
+        "y is not a state",
     ),
+    "two when-clauses": (
+        "model M\n  Integer n(start=0);\nequation\n  when time>2 then\n    n=1;\n  end when;\n  when time>3 then\n"
+        "    n=2;\n  end when;\nend M;",
+        "M.mo:2",
+        "more than one",
+    ),
+    "delay": ("model M\n  Real y = delay(time, 0.1);\nend M;", "M.mo:2", "Delay"),
+    "edge of an expression": (
+        "model M\n  Boolean b;\n  Integer n(start=0);\nequation\n  b = time>1;\n  when edge(not b) then\n    n=1;\n"
+        "  end when;\nend M;",
+        "M.mo:6",
+        "edge",
+    ),
+    "too many initial equations": (
+        "model M\n  Real x(start=1, fixed=true);\ninitial equation\n  x = 2;\nequation\n  der(x) = 1;\nend M;",
+        "M.mo:2",
+        "more equations at the start",
+    ),
+    "text of a parameter": (
+        'model M\n  parameter String s = "a";\n  Real x(start=0);\nequation\n  der(x) = 1;\n  assert(x < 1, "b" + s);\n'
+        "end M;",
+        "M.mo:6",
+        "String(scalar)",
+    ),
+    "text": ('model M\n  String s = "a";\n  Real x = time;\nend M;', "M.mo:2", "String"),
     "array": ("model M\n  Real x[2];\nequation\n  x[1] = 1;\n  x[2] = 2;\nend M;", "M.mo:2", "array"),
-    "boolean": ("model M\n  Boolean b = time > 1;\nend M;", "M.mo:2", "Boolean"),
     "nonlinear": ("model M\n  Real x;\nequation\n  x^3 + x = time;\nend M;", "M.mo:4", "linear"),
     "function": ("model M\n  Real x = sign(time);\nend M;", "M.mo:2", "Sign"),
     "index": (

@@ -188,6 +188,17 @@ static void snapshot(Unit *u)
     }
 }
 
+/* Whether all variables are of one of two types. */
+static bool all_of(const unsigned references[], size_t n, ValueType one, ValueType other)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (references[i] >= N_VARIABLES) return false;
+        const ValueType type = variable_info[references[i]].type;
+        if (type != one && type != other) return false;
+    }
+    return true;
+}
+
 static void others(Unit *u)
 {
     unsigned r[1] = {reference()};
@@ -196,9 +207,11 @@ static void others(Unit *u)
     const bool get = draw(2);
     fmi2Status status;
     if (get) {
-        (void)CALL(fmi2GetInteger, EVALUABLE_, n == 0, NULL, 0, r, n, i);
+        (void)CALL(fmi2GetInteger, EVALUABLE_, all_of(r, n, INTEGER, ENUMERATION), NULL, 0, r, n, i);
+        (void)CALL(fmi2GetBoolean, EVALUABLE_, all_of(r, n, BOOLEAN, BOOLEAN), NULL, 0, r, n, i);
     } else {
-        (void)CALL(fmi2SetBoolean, SETTABLE_ & ~CONTINUOUS_, n == 0, NULL, 0, r, n, i);
+        (void)CALL(fmi2SetBoolean, SETTABLE_ & ~CONTINUOUS_, all_of(r, n, BOOLEAN, BOOLEAN), NULL, 0, r, n, i);
+        (void)CALL(fmi2SetInteger, SETTABLE_ & ~CONTINUOUS_, all_of(r, n, INTEGER, ENUMERATION), NULL, 0, r, n, i);
     }
     (void)CALL(fmi2GetStatus, 0, false, NULL, 0, fmi2DoStepStatus, &status);
 }

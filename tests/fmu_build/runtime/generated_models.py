@@ -9,9 +9,11 @@ from runtime_models import TOKEN
 
 from fmu_build.c_elimination import print_elimination
 from fmu_build.c_model import print_c
+from fmu_build.discrete import lower
 from fmu_build.elimination import eliminate
 from fmu_build.equations import derive
 from fmu_build.frontend import flatten
+from fmu_build.initial import initialize
 from fmu_build.ir import TOKEN_PLACEHOLDER
 from fmu_build.jacobian import differentiate
 from fmu_build.ports import declare
@@ -38,6 +40,41 @@ equation
 end Nonlinear;
 """
 
+# All that events can do: reinit, ticks, edges, inputs and parameters of all types, warnings, errors, an end.
+EVENTS = """model Events
+  type Mode = enumeration(slow, fast);
+  parameter Real e(unit="1") = 0.8;
+  parameter Real T_s(unit="s", min=0.01) = 0.05;
+  parameter Integer most = 40;
+  input Boolean open(start=true);
+  input Integer level(start=1);
+  input Real u(start=0.2);
+  output Mode mode(start=Mode.slow, fixed=true);
+  output Integer bounces(start=0, fixed=true);
+  output Boolean high;
+  Real h(start=1, fixed=true);
+  Real v(start=0, fixed=true);
+  discrete Real mean(start=0, fixed=true);
+equation
+  der(h) = v;
+  der(v) = -9.81 + u + (if mode == Mode.fast then -level else 0);
+  high = h > 0.5 and open;
+  when h < 0 then
+    reinit(v, -e*pre(v));
+    bounces = pre(bounces) + 1;
+    mode = if pre(mode) == Mode.slow then Mode.fast else Mode.slow;
+  end when;
+  when sample(0, T_s) then
+    mean = 0.9*pre(mean) + 0.1*h;
+  end when;
+  when bounces > most then
+    terminate("enough, after " + String(time) + " s");
+  end when;
+  assert(h < 2, "h is " + String(h), AssertionLevel.warning);
+  assert(h < 50, "h is " + String(h));
+end Events;
+"""
+
 
 @dataclass(frozen=True)
 class GeneratedModel:
@@ -57,7 +94,7 @@ class GeneratedModel:
 
 def generate(modelica: Path, class_name: str) -> GeneratedModel:
     flat = flatten(modelica, class_name)
-    model = sort(derive(flat))
+    model = sort(initialize(derive(lower(flat))))
     name = class_name.rpartition(".")[2]
     jacobian = differentiate(model)
     algebra = print_elimination(eliminate(jacobian.entries, len(model.states)))

@@ -76,6 +76,7 @@ class Model:
 #define MODEL_TOKEN "{TOKEN}"
 #define DEFAULT_TOLERANCE {self.tolerance!r}
 #define N_COUPLINGS 0
+#define HAS_EVENTS 0
 enum {{
     N_STATES = {len(self.states)},
     N_INPUTS = {len(self.inputs)},
@@ -92,7 +93,7 @@ typedef union {{
 
     def source(self) -> str:
         rows = ",\n".join(
-            f'    {{"{v.name}", "{v.unit}", {v.kind}, {c(v.start)}, {c(v.min)}, {c(v.max)}, {c(v.nominal)}}}'
+            f'    {{"{v.name}", "{v.unit}", REAL, {v.kind}, {c(v.start)}, {c(v.min)}, {c(v.max)}, {c(v.nominal)}}}'
             for v in self.variables()
         )
         texts = ", ".join(f'"{text}"' for text, _ in self.relations) or '""'
@@ -114,8 +115,9 @@ void model_parameters(Variables *v) {{
     (void)v;
     {self.parameter_equations}
 }}
-void model_start(Variables *v) {{
+void model_start(Variables *v, const bool holds[]) {{
     (void)v;
+    (void)holds;
     {self.start_equations}
 }}
 void model_derivatives(Variables *v, const bool holds[]) {{
@@ -159,7 +161,7 @@ static Variables moved(const Variables *v, const bool holds[], bool at_start, co
         if (is_known(i, at_start)) w.at[i] += way * d->at[i];
     }
     model_parameters(&w);
-    if (at_start) model_start(&w);
+    if (at_start) model_start(&w, holds);
     model_outputs(&w, holds);
     return w;
 }

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from coupled_models import TOWED
 from fuzz import fuzzer
-from generated_models import generate
+from generated_models import EVENTS, generate
 from runtime_models import CAR_TRAILER, OSCILLATOR, Model
 
 
@@ -26,6 +26,16 @@ def test_random_calls(model: Model, fmi: int, tmp_path: Path) -> None:
 def test_random_calls_of_a_generated_model_with_a_coupling(fmi: int, modelica_library: Path, tmp_path: Path) -> None:
     try:
         program = fuzzer(generate(modelica_library, "OverrunHitch.Systems.Trailer"), fmi, tmp_path)
+    except subprocess.CalledProcessError:
+        pytest.skip("no sanitizers")
+    random_calls(program)
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_random_calls_of_a_model_with_events(fmi: int, tmp_path: Path) -> None:
+    (tmp_path / "Events.mo").write_text(EVENTS, encoding="utf-8")
+    try:
+        program = fuzzer(generate(tmp_path / "Events.mo", "Events"), fmi, tmp_path)
     except subprocess.CalledProcessError:
         pytest.skip("no sanitizers")
     random_calls(program)

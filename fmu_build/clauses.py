@@ -1,0 +1,141 @@
+"""When-clauses, algorithm sections and assertions of rumoca's flat form."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import sympy
+
+from .errors import BuildError
+from .event_expressions import EventReader
+from .expressions import unwrap
+from .ir import Algorithm, Assignment, Check, Choice, Reinit, Statement, When, WhenBranch
+
+Node = Mapping[str, Any]
+KEYS = {"condition": ("condition", "cond"), "statements": ("equations", "stmts")}  # of equations, of algorithms
+
+
+def assigned_names(flat: Node) -> frozenset[str]:
+    """The variables that when-clauses assign: they are discrete, whatever their declarations say."""
+    chains = (chain for chain in flat["when_chains"])
+    names = {
+        n for chain in chains for block in (chain["first"], *chain["else_when"]) for n in _targets(block["equations"])
+    }
+    for section in flat["algorithms"]:
+        names |= {n for node in section["statements"] if "When" in node for n in _targets([node])}
+    return frozenset(names)
+
+
+def read_whens(flat: Node, reader: EventReader) -> tuple[When, ...]:
+    """The when-clauses among the equations."""
+    return tuple(
+        When(tuple(_branch(block, reader) for block in (chain["first"], *chain["else_when"])))
+        for chain in flat["when_chains"]
+    )
+
+
+def read_algorithms(sections: Sequence[Node], reader: EventReader) -> tuple[Algorithm, ...]:
+    """Algorithm sections."""
+    return tuple(
+        Algorithm(
+            tuple(_statement(node, reader, event_free=False) for node in section["statements"]),
+            tuple(output["name"] for output in section["outputs"]),
+            reader.sources.find_place(section["statements"]),
+        )
+        for section in sections
+    )
+
+
+def read_checks(flat: Node, reader: EventReader) -> tuple[Check, ...]:
+    """Assertions among the equations: looked at after each step, no events of their own."""
+    return tuple(_assertion(node, reader) for node in (*flat["assert_equations"], *flat["initial_assert_equations"]))
+
+
+def _targets(nodes: Sequence[Node]) -> Iterator[str]:
+    for node in nodes:
+        tag, body = next(iter(node.items()))
+        if tag in {"Assign", "Assignment"}:
+            yield _target(body)
+        elif tag in {"Conditional", "If", "When"}:
+            for _, statements in _conditional_parts(tag, body):
+                yield from _targets(statements)
+
+
+def _target(body: Node) -> str:
+    if "target" in body:
+        return _name(body["target"])
+    return ".".join(part["ident"] for part in body["comp"]["parts"])
+
+
+def _name(node: Any) -> str:
+    if isinstance(node, str):
+        return node
+    return str(node["name"]) if "name" in node else _name(unwrap(node))
+
+
+def _conditional_parts(tag: str, body: Node) -> list[tuple[Any, Sequence[Node]]]:
+    """Condition (None: otherwise) and statements of each branch."""
+    if tag == "Conditional":
+        parts = [(condition, statements) for condition, statements in body["branches"]]
+        last = body["else_branch"]
+    else:
+        blocks = body["blocks"] if tag == "When" else body["cond_blocks"]
+        parts = [(block["cond"], block["stmts"]) for block in blocks]
+        last = body.get("else_block")
+    return parts if last is None else [*parts, (None, last)]
+
+
+def _branch(block: Node, reader: EventReader) -> WhenBranch:
+    condition = next(block[key] for key in KEYS["condition"] if key in block)
+    statements = next(block[key] for key in KEYS["statements"] if key in block)
+    elements = condition["Array"]["elements"] if "Array" in condition else [condition]
+    return WhenBranch(
+        tuple(reader.condition(element) for element in elements),
+        tuple(_statement(node, reader, event_free=True) for node in statements),
+        reader.sources.find_place(condition),
+    )
+
+
+def _statement(node: Node, reader: EventReader, *, event_free: bool) -> Statement:
+    tag, body = next(iter(node.items()))
+    read = reader.read_event_free if event_free else reader.read
+    origin = reader.sources.find_place(node)
+    if tag in {"Assign", "Assignment"}:
+        if tag == "Assignment" and any(part["subs"] for part in body["comp"]["parts"]):
+            raise BuildError(f"{origin}: an element of an array is assigned in an algorithm section: not supported")
+        return Assignment(_target(body), read(body["value"]), origin)
+    if tag == "Reinit":
+        return Reinit(_name(body["state"]), sympy.true, read(body["value"]), origin)
+    if tag == "Assert":
+        return _assertion(body, reader)
+    if tag == "Terminate":
+        return Check(sympy.true, reader.message(body["message"]), "END", origin)
+    if tag in {"Conditional", "If"}:
+        condition = reader.condition_event_free if event_free else reader.condition
+        return Choice(
+            tuple(
+                (
+                    sympy.true if part is None else condition(part),
+                    tuple(_statement(n, reader, event_free=event_free) for n in statements),
+                )
+                for part, statements in _conditional_parts(tag, body)
+            )
+        )
+    if tag == "When":
+        return When(tuple(_branch(block, reader) for block in body["blocks"]))
+    raise BuildError(
+        f"{origin}: {tag} in a when-clause or an algorithm section: supported are assignments, if, when, reinit, assert"
+        " and terminate"
+    )
+
+
+def _assertion(body: Node, reader: EventReader) -> Check:
+    level = body.get("level")
+    is_warning = level is not None and reader.read(level) == 1  # AssertionLevel.warning
+    return Check(
+        sympy.Not(reader.condition_event_free(body["condition"])),
+        reader.message(body["message"]),
+        "WARN" if is_warning else "FAIL",
+        reader.sources.find_place(body),
+    )
