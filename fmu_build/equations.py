@@ -56,11 +56,17 @@ def derive(model: FlatModel) -> EquationSystem:
         for v in model.variables
         if v.variability == "continuous" and v.name not in aliases and v.causality != "input"
     ]
+    before = _symbols(reduced)
+    given = [
+        Equation(symbol(n) - start, variables[n].origin)
+        for n in algebraics
+        if variables[n].fixed and (start := variables[n].start) is not None and symbol(der(n)) not in before
+    ]  # fixed start values of what is no state
     chosen, reduced, starts, differentiated = _choose_states(reduced, algebraics, variables)
     states, reduced = reduce_index(reduced, differentiated, chosen, variables)
     occurring, state_names = _symbols(reduced), set(states)
     derivatives = [name for name in (der(n) for n in algebraics) if symbol(name) in occurring]
-    initial = substitute(model.initial_equations, replacements)
+    initial = substitute((*model.initial_equations, *given), replacements)
     derivatives += sorted(s.name for s in occurring if s.name.startswith("der(der("))
     unknowns = (*derivatives, *(n for n in algebraics if n not in state_names))
     return EquationSystem(
