@@ -17,8 +17,8 @@ def declare_loops(model: SortedModel, text: Text, lines: Lines) -> str:
     """The functions and the table of all loops."""
     loops = numbered(model)
     parts = [_declare(name, loop, model.value_references, text, lines) for name, loop in loops.items()]
-    table = ", ".join(f"&{name}" for name in loops) or "0"
-    return "\n".join([*parts, f"const Loop *const model_loops[AT_LEAST_ONE(N_LOOPS)] = {{{table}}};\n"])
+    table = ", ".join(f"&{name}" for name in loops)
+    return "\n".join([*parts, f"const Loop *const model_loops[N_LOOPS] = {{{table}}};\n" if loops else ""])
 
 
 def numbered(model: SortedModel) -> dict[str, Loop]:

@@ -47,6 +47,7 @@ def _header(model: SortedModel, identifier: str, names: dict[str, str], n_coupli
 #define MODEL_TOKEN "{TOKEN_PLACEHOLDER}"
 #define DEFAULT_TOLERANCE {tolerance!r}
 #define N_COUPLINGS {n_couplings}
+#define N_LOOPS {len(numbered(model))}
 #define HAS_EVENTS {int(not model.schedule.is_empty)}
 
 enum {{
@@ -54,7 +55,6 @@ enum {{
     N_INPUTS = {len(model.inputs)},
     N_PARAMETERS = {len(model.parameters)},
     N_RELATIONS = {len(model.relations)},
-    N_LOOPS = {len(numbered(model))},
     N_VARIABLES = {len(names)}{event_sizes(model)}
 }};
 

@@ -243,6 +243,8 @@ void loop_solve(const Loop *loop, Variables *v, const bool holds[], double work[
     fill(loop, v, (double)NAN);
 }
 
+#if N_LOOPS > 0
+
 void loops_explain(const Variables *v, Message *why)
 {
     for (int i = 0; i < N_LOOPS; i++) {
@@ -253,3 +255,13 @@ void loops_explain(const Variables *v, Message *why)
         }
     }
 }
+
+#else
+
+void loops_explain(const Variables *v, Message *why)
+{
+    (void)v;
+    (void)why;
+}
+
+#endif

@@ -44,6 +44,8 @@ void loop_adjoint(const Loop *loop, const Variables *v, const bool holds[], cons
 /* If a loop has no solution at v, add to the message which. */
 void loops_explain(const Variables *v, Message *why);
 
-extern const Loop *const model_loops[AT_LEAST_ONE(N_LOOPS)];
+#if N_LOOPS > 0
+extern const Loop *const model_loops[N_LOOPS];
+#endif
 
 #endif

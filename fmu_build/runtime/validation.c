@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "finite.h"
+#include "loops.h"
 
 static const double LOOSEST_TOLERANCE = 1e-2;
 static const double TIGHTEST_TOLERANCE = 1e-12;
