@@ -104,7 +104,7 @@ end M;""",
 model M
   type Species = enumeration(A, B, X);
   parameter Real k[3] = {0.1, 0.1, 10};
-  Real c[Species](start={1, 1, 0}, each fixed=true);
+  Real c[Species](start={1, 1, 0}, each fixed=true, nominal={1, 1, 0.01});
 equation
   der(c[Species.A]) = k[2]*c[Species.X] - k[1]*c[Species.A]*c[Species.B];
   der(c[Species.B]) = k[2]*c[Species.X] - k[1]*c[Species.A]*c[Species.B] - k[3]*c[Species.B]*c[Species.X];
