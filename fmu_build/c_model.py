@@ -8,6 +8,7 @@ from dataclasses import fields
 import sympy
 
 from .c_events import event_sizes, print_events
+from .c_loops import adjoint_lines, declare_loops, gradient_lines, name_of, numbered, tangent_lines
 from .c_text import Printer, assignment_lines, function, identifiers, local_name, string
 from .ir import (
     DEFAULT_TOLERANCE,
@@ -16,6 +17,8 @@ from .ir import (
     Coupling,
     CSources,
     JacobianModel,
+    LoopGradient,
+    LoopPartials,
     Partials,
     SortedModel,
     Variable,
@@ -28,7 +31,7 @@ def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str, coupli
     """variables.h and model.c of ``model``, with the all-zero placeholder where the content hash will stand."""
     names = identifiers(model.value_references)
     header = _header(model, identifier, names, n_couplings=0 if coupling is None else 1)
-    printer = Printer(names, steady(model))
+    printer = Printer(names, steady(model), numbered(model))
     text = _model(model, jacobian, printer) + _coupling(coupling, model) + print_events(model, printer)
     return CSources({"variables.h": header, "model.c": text})
 
@@ -44,6 +47,7 @@ def _header(model: SortedModel, identifier: str, names: dict[str, str], n_coupli
 #define MODEL_TOKEN "{TOKEN_PLACEHOLDER}"
 #define DEFAULT_TOLERANCE {tolerance!r}
 #define N_COUPLINGS {n_couplings}
+#define N_LOOPS {len(numbered(model))}
 #define HAS_EVENTS {int(not model.schedule.is_empty)}
 
 enum {{
@@ -74,6 +78,7 @@ def _model(model: SortedModel, jacobian: JacobianModel, printer: Printer) -> str
     residuals = [relation_name(i) for i in range(len(model.relations))]
     references = [str(model.value_references[name]) for name in residuals] or ["0"]
     sections = [
+        declare_loops(model, printer.text, lambda assignments: assignment_lines(assignments, printer)),
         function("model_parameters(Variables *v)", assignment_lines(model.parameter_assignments, printer)),
         function("model_start(Variables *v, const bool holds[])", assignment_lines(model.start_assignments, printer)),
         function("model_derivatives(Variables *v, const bool holds[])", derivatives),
@@ -89,6 +94,7 @@ def _model(model: SortedModel, jacobian: JacobianModel, printer: Printer) -> str
 #include <math.h>
 
 #include "elementary.h"
+#include "loops.h"
 
 const VariableInfo variable_info[N_VARIABLES] = {{
 {rows}
@@ -113,7 +119,7 @@ def _coupling(coupling: Coupling | None, model: SortedModel) -> str:
     return "\n".join(["", "const CouplingInfo coupling_info = {", *rows, "};", ""])
 
 
-Direction = Callable[[Iterable[Partials], Printer], list[str]]
+Direction = Callable[[Iterable[Partials | LoopPartials], Printer], list[str]]
 
 
 def _chain(name: str, jacobian: JacobianModel, printer: Printer, lines: Direction) -> str:
@@ -129,22 +135,30 @@ def _chain(name: str, jacobian: JacobianModel, printer: Printer, lines: Directio
     return function(signature, [line for block in ordered for line in block])
 
 
-def _tangent(partials: Iterable[Partials], printer: Printer) -> list[str]:
+def _tangent(partials: Iterable[Partials | LoopPartials], printer: Printer) -> list[str]:
     """``d->y = dy/da d->a + dy/db d->b``"""
     lines = []
     for p in partials:
-        terms = [_product(value, f"d->{printer.names[name]}", printer) for name, value in p.by_argument]
-        lines.append(f"d->{printer.names[p.target]} = {' + '.join(terms) or '0.0'}; /* {p.origin} */")
+        if isinstance(p, LoopPartials):
+            lines += tangent_lines(name_of(p.loop, printer.loops), p, printer.text, printer.seed)
+            continue
+        terms = [_product(value, printer.seed(name), printer) for name, value in p.by_argument]
+        lines.append(f"{printer.seed(p.target)} = {' + '.join(terms) or '0.0'}; /* {p.origin} */")
     return lines
 
 
-def _adjoint(partials: Iterable[Partials], printer: Printer) -> list[str]:
+def _adjoint(partials: Iterable[Partials | LoopPartials], printer: Printer) -> list[str]:
     """In the reverse order ``d->a += dy/da d->y``, ``d->b += dy/db d->y``"""
-    return [
-        f"d->{printer.names[name]} += {_product(value, f'd->{printer.names[p.target]}', printer)}; /* {p.origin} */"
-        for p in reversed(list(partials))
-        for name, value in p.by_argument
-    ]
+    lines = []
+    for p in reversed(list(partials)):
+        if isinstance(p, LoopPartials):
+            lines += adjoint_lines(name_of(p.loop, printer.loops), p, printer.text, printer.seed)
+            continue
+        lines += [
+            f"{printer.seed(name)} += {_product(value, printer.seed(p.target), printer)}; /* {p.origin} */"
+            for name, value in p.by_argument
+        ]
+    return lines
 
 
 def _product(value: sympy.Expr, factor: str, printer: Printer) -> str:
@@ -155,18 +169,31 @@ def _relations(model: SortedModel, printer: Printer) -> list[str]:
     """Each residual goes to z as soon as it is known: read back later, in pairs, it would stall (1 % of a run)."""
     index = {relation_name(i): i for i in range(len(model.relations))}
     lines = []
-    for assignment in needed_for(list(index), model):
-        lines += assignment_lines([assignment], printer)
-        if assignment.target in index:
-            lines.append(f"z[{index[assignment.target]}] = v->{printer.names[assignment.target]};")
+    for block in needed_for(list(index), model):
+        lines += assignment_lines([block], printer)
+        lines += [f"z[{index[name]}] = v->{printer.names[name]};" for name in block.targets if name in index]
+    return lines
+
+
+def _chained(jacobian: JacobianModel, printer: Printer) -> list[str]:
+    """The local derivatives, in their order."""
+    lines: list[str] = []
+    factored: set[str] = set()
+    results = (*jacobian.entries.values(), *jacobian.time_entries.values())
+    used = set().union(*(a.arguments for a in jacobian.assignments), *(value.free_symbols for value in results))
+    used_names = {s.name: local_name(s.name) for s in used}
+    for number, a in enumerate(jacobian.assignments):
+        if isinstance(a, LoopGradient):
+            name = name_of(a.loop, printer.loops)
+            lines += gradient_lines(name, a, number, name not in factored, printer.text, used_names)
+            factored.add(name)
+        else:
+            lines.append(f"const double {local_name(a.target)} = {printer.text(a.expression)}; /* {a.origin} */")
     return lines
 
 
 def _jacobian(model: SortedModel, jacobian: JacobianModel, printer: Printer) -> str:
-    lines = [
-        f"const double {local_name(a.target)} = {printer.text(a.expression)}; /* {a.origin} */"
-        for a in jacobian.assignments
-    ]
+    lines = _chained(jacobian, printer)
     lines.append("for (int i = 0; i < N_STATES; i++) time_derivative[i] = 0.0;" if model.states else "")
     for index, ((row, column), value) in enumerate(jacobian.entries.items()):
         comment = f"{model.derivatives[row]} by {model.states[column]}"

@@ -9,7 +9,8 @@ from typing import Any
 import sympy
 from sympy.printing.c import C11CodePrinter
 
-from .ir import Assignment, round_down
+from .c_loops import name_of
+from .ir import Block, Loop, round_down
 
 C_KEYWORDS = frozenset(C11CodePrinter.reserved_words) | {"inline", "restrict", "bool", "true", "false", "at"}
 
@@ -30,13 +31,14 @@ def identifiers(names: Iterable[str]) -> dict[str, str]:
 class Printer(C11CodePrinter):  # type: ignore[misc]
     """C expressions over ``v->name``; doubles with the digits that give them back exactly.
 
-    ``steady`` are names of variables that do not change while the states do.
+    ``steady`` are names of variables that do not change while the states do, ``loops`` the loops by their C names.
     """
 
-    def __init__(self, names: dict[str, str], steady: frozenset[str] = frozenset()) -> None:
+    def __init__(self, names: dict[str, str], steady: frozenset[str], loops: dict[str, Loop]) -> None:
         super().__init__()
         self.names = names
         self.steady = steady
+        self.loops = loops
 
     def _print_Symbol(self, expr: sympy.Symbol) -> str:
         if expr.name in self.names:
@@ -93,6 +95,10 @@ class Printer(C11CodePrinter):  # type: ignore[misc]
         """The C of an expression."""
         return str(self.doprint(expression))
 
+    def seed(self, name: str) -> str:
+        """The tangent or adjoint of a variable."""
+        return f"d->{self.names[name]}"
+
 
 def local_name(name: str) -> str:
     """The C name of a partial derivative: ``d(car.tyre.F)/d(car.body.v)`` to ``d_car_tyre_F__d_car_body_v``."""
@@ -108,9 +114,14 @@ def function(signature: str, lines: list[str]) -> str:
     return f"void {signature}\n{{\n{text}\n}}\n"
 
 
-def assignment_lines(assignments: Iterable[Assignment], printer: Printer) -> list[str]:
+def assignment_lines(blocks: Iterable[Block], printer: Printer) -> list[str]:
     """A line for each, with the place that it comes from."""
-    return [f"v->{printer.names[a.target]} = {printer.text(a.expression)}; /* {a.origin} */" for a in assignments]
+    return [
+        f"{name_of(block, printer.loops)}_solve(v, holds);"
+        if isinstance(block, Loop)
+        else f"v->{printer.names[block.target]} = {printer.text(block.expression)}; /* {block.origin} */"
+        for block in blocks
+    ]
 
 
 def string(text: Any) -> str:

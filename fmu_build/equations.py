@@ -14,6 +14,7 @@ from dataclasses import replace
 import sympy
 
 from .errors import BuildError
+from .index_reduction import reduce_index
 from .ir import (
     TIME,
     Assignment,
@@ -55,14 +56,22 @@ def derive(model: FlatModel) -> EquationSystem:
         for v in model.variables
         if v.variability == "continuous" and v.name not in aliases and v.causality != "input"
     ]
-    states, reduced, starts = _choose_states(reduced, algebraics, variables)
-    occurring = _symbols(reduced)
+    before = _symbols(reduced)
+    given = [
+        Equation(symbol(n) - start, variables[n].origin)
+        for n in algebraics
+        if variables[n].fixed and (start := variables[n].start) is not None and symbol(der(n)) not in before
+    ]  # fixed start values of what is no state
+    chosen, reduced, starts, differentiated = _choose_states(reduced, algebraics, variables)
+    states, reduced = reduce_index(reduced, differentiated, chosen, variables)
+    occurring, state_names = _symbols(reduced), set(states)
     derivatives = [name for name in (der(n) for n in algebraics) if symbol(name) in occurring]
-    initial = substitute(model.initial_equations, replacements)
-    unknowns = (*derivatives, *(n for n in algebraics if n not in states))
+    initial = substitute((*model.initial_equations, *given), replacements)
+    derivatives += sorted(s.name for s in occurring if s.name.startswith("der(der("))
+    unknowns = (*derivatives, *(n for n in algebraics if n not in state_names))
     return EquationSystem(
         model=model,
-        states=states,
+        states=tuple(states),
         inputs=inputs,
         unknowns=unknowns,
         equations=tuple(reduced),
@@ -71,7 +80,7 @@ def derive(model: FlatModel) -> EquationSystem:
         bound_parameters=bound,
         starts={name: starts[name].xreplace(values) for name in states if name in starts},
         aliases=aliases,
-        events=_events(substitute(model.events, replacements), states, aliases),
+        events=_events(substitute(model.events, replacements), tuple(states), aliases),
         initial_equations=tuple(e for e in initial if e.residual != 0),
         starts_before=tuple(
             Assignment(pre(v.name), v.start.xreplace(values), v.origin)
@@ -182,8 +191,10 @@ def is_free(variable: Variable) -> bool:
 
 def _choose_states(
     equations: list[Equation], algebraics: list[str], variables: Mapping[str, Variable]
-) -> tuple[tuple[str, ...], list[Equation], dict[str, sympy.Expr]]:
-    """The states, the equations with those that are added, and the start values of the states."""
+) -> tuple[tuple[str, ...], list[Equation], dict[str, sympy.Expr], list[Equation]]:
+    """The states, the equations with those that are added, the start values of the states, and what was
+    differentiated."""
+    differentiated: list[Equation] = []
     names = {symbol(n): n for n in algebraics}
     present = _symbols(equations)
     states = [n for n in algebraics if symbol(der(n)) in present]
@@ -205,8 +216,9 @@ def _choose_states(
             starts[_required(free, equation, candidates)] = _start_from_others(equation, str(free), starts)
             fixed.add(str(free))
         states.remove(demoted)
+        differentiated.append(equation)
         result.append(Equation(_total_derivative(equation, demoted, set(occurring), variables), equation.origin))
-    return tuple(states), result, starts
+    return tuple(states), result, starts, differentiated
 
 
 def _required(free: str | None, equation: Equation, candidates: list[str]) -> str:

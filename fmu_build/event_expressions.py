@@ -32,6 +32,7 @@ from .ir import (
     symbol,
     truth,
 )
+from .values import Value, each
 
 COMPARISONS = {"Lt": sympy.Lt, "Le": sympy.Le, "Gt": sympy.Gt, "Ge": sympy.Ge}
 BOOLEAN_OPERATORS = {"And", "Or", "Not", "Eq", "Neq", *RELATIONS}
@@ -61,13 +62,15 @@ class Declared:
 class EventReader(ExpressionReader):
     """Reads all that an ExpressionReader does, and events. ``samples`` and ``rounded`` collect what it meets."""
 
-    def __init__(self, sources: Sources, declared: Declared) -> None:
-        super().__init__(sources)
+    def __init__(
+        self, sources: Sources, declared: Declared, flat: Mapping[str, Any], fixed: frozenset[str] = frozenset()
+    ) -> None:
+        super().__init__(sources, flat, fixed)
         self.declared = declared
         self.samples: list[Sample] = []
         self.rounded: list[Assignment] = []
 
-    def read(self, node: Mapping[str, Any]) -> sympy.Expr:
+    def read(self, node: Mapping[str, Any]) -> Value:
         """A value; true is 1 and false 0."""
         tag, body = next(iter(node.items()))
         if tag == "VarRef" and (number := self._literal_number(body)) is not None:
@@ -226,14 +229,16 @@ class EventReader(ExpressionReader):
             return None
         return -rest / slope, bool(slope > 0)
 
-    def _rounded(self, body: Mapping[str, Any]) -> sympy.Expr:
+    def _rounded(self, body: Mapping[str, Any]) -> Value:
         arguments = [self.read(argument) for argument in body["args"]]
         if body["function"] in ROUNDING:
-            return ROUNDING[body["function"]](lambda x: self._down(x, body), *arguments)
-        return TRUNCATION[body["function"]](lambda x: self._cut(x, body), *arguments)
+            return each(lambda *x: ROUNDING[body["function"]](lambda y: self._down(y, body), *x), *arguments)
+        return each(lambda *x: TRUNCATION[body["function"]](lambda y: self._cut(y, body), *x), *arguments)
 
     def _cut(self, x: sympy.Expr, body: Mapping[str, Any]) -> sympy.Expr:
         """Rounded towards zero."""
+        if x.is_number:
+            return sympy.Integer(int(x))
         is_discrete = self._event_free or self._changes_at_events_alone(x)
         text, origin = self.sources.text(body["span"]), self.sources.find_place(body)
         negative = -x > 0 if is_discrete else self._holds(-x, text, origin)

@@ -7,7 +7,9 @@ sources; and it reads every .mo file beside the one it is given, as Modelica's d
 
 from __future__ import annotations
 
+import itertools
 import re
+from collections.abc import Iterator
 from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
@@ -28,17 +30,14 @@ from .annotations import (
     read_terminals,
 )
 from .clauses import assigned_names, read_algorithms, read_checks, read_whens
+from .components import element_names, spread
 from .errors import BuildError
 from .event_expressions import Declared, EventReader, enumeration_types
 from .expressions import Sources, unwrap
-from .ir import Alternatives, Assignment, EnumerationType, Equation, FlatModel, Simulation, Variable
-from .substitution import substitute
+from .ir import Alternatives, Assignment, EnumerationType, Equation, FlatModel, Simulation, Variable, symbol
+from .values import Value, elements
 
-UNSUPPORTED_SECTIONS = {
-    "functions": "functions",
-}
 Node = dict[str, Any]
-Constants = dict[sympy.Symbol, sympy.Expr]
 REFERENCE_TOLERANCES = (1e-9, 1e-11)  # relative; the difference between the two tells the accuracy
 STATE_SELECT = {"Never": -2, "Avoid": -1, "Default": 0, "Prefer": 1, "Always": 2}
 
@@ -50,21 +49,21 @@ def flatten(path: Path, class_name: str) -> FlatModel:
     """
     model, sources = _load(path, class_name)
     flat = model.to_dict("flat")
-    _refuse_unsupported_sections(flat, sources)
     declared = _declared(flat)
-    reader = EventReader(sources, declared)
-    constants = _constants(flat["variables"], reader)
+    fixed = _fixed(flat)
+    reader = EventReader(sources, declared, flat, fixed)
     kinds = enumeration_types(flat)
-    variables = tuple(
-        _variable(node, flat, reader, constants, kinds)
-        for node in flat["variables"].values()
-        if not _is_text(node, flat)
-    )
+    variables = [
+        variable
+        for name, node in flat["variables"].items()
+        if name not in fixed and not _is_text(node, flat)
+        for variable in _variables(node, flat, reader, kinds)
+    ]
     text = class_text(class_name, sources.texts())
     flat_model = FlatModel(
         name=class_name,
         description=flat["model_description"] or "",
-        variables=tuple(v for v in variables if v.variability != "constant"),
+        variables=tuple(variables),
         equations=(),
         relations=(),
         experiment=read_experiment(text),
@@ -74,24 +73,21 @@ def flatten(path: Path, class_name: str) -> FlatModel:
         terminals=read_terminals(text),
         examples=read_examples(text),
     )
-    return _with_equations(flat_model, flat, reader, constants)
+    return _with_equations(flat_model, flat, reader)
 
 
-def _with_equations(model: FlatModel, flat: Node, reader: EventReader, constants: Constants) -> FlatModel:
-    equations, discrete = (
-        [],
-        [
-            Alternatives((Assignment(v.name, v.binding, v.origin),))
-            for v in model.variables
-            if v.variability == "discrete" and v.binding is not None and v.causality != "input"
-        ],
-    )
-    for node in flat["equations"]:
-        origin = _equation_origin(node, reader.sources)
-        if alternatives := _discrete_equation(node["residual"], origin, flat, reader):
+def _with_equations(model: FlatModel, flat: Node, reader: EventReader) -> FlatModel:
+    discrete = [
+        Alternatives((Assignment(v.name, v.binding, v.origin),))
+        for v in model.variables
+        if v.variability == "discrete" and v.binding is not None and v.causality != "input"
+    ]
+    equations: list[Equation] = []
+    for residual, origin, names in _residuals(flat, reader):
+        if alternatives := _discrete_equation(residual, origin, flat, reader):
             discrete.append(alternatives)
         else:
-            equations.append(Equation(reader.read(node["residual"]), origin))
+            equations += _scalars(residual, origin, reader, names)
     complete = replace(
         model,
         equations=tuple(equations),
@@ -101,14 +97,65 @@ def _with_equations(model: FlatModel, flat: Node, reader: EventReader, constants
         checks=read_checks(flat, reader),
         initial_algorithms=read_algorithms(flat["initial_algorithms"], reader),
         initial_equations=tuple(
-            Equation(reader.read_event_free(node["residual"]), _equation_origin(node, reader.sources))
+            Equation(scalar, _equation_origin(node, reader.sources))
             for node in flat["initial_equations"]
+            for scalar in elements(reader.read_event_free(node["residual"]))
         ),
     )
-    complete = replace(
-        complete, relations=tuple(reader.relations), samples=tuple(reader.samples), rounded=tuple(reader.rounded)
+    return replace(
+        complete,
+        variables=(*_structural(model, reader), *_shared_variables(reader)),
+        equations=(*equations, *(Equation(symbol(a.target) - a.expression, a.origin) for a in reader.shared)),
+        relations=tuple(reader.relations),
+        samples=tuple(reader.samples),
+        rounded=tuple(reader.rounded),
     )
-    return substitute(complete, constants)
+
+
+def _shared_variables(reader: EventReader) -> list[Variable]:
+    return [Variable(a.target, "Part of an expression", hidden=True, origin=a.origin) for a in reader.shared]
+
+
+def _structural(model: FlatModel, reader: EventReader) -> tuple[Variable, ...]:
+    """The variables; parameters that subscripts or sizes have been calculated from cannot be set any more."""
+    names = reader.components.structural
+    return tuple(
+        replace(v, final=True, binding=reader.components.number(v.binding))
+        if v.name in names and v.binding is not None
+        else v
+        for v in model.variables
+    )
+
+
+def _residuals(flat: Node, reader: EventReader) -> Iterator[tuple[Node, str, dict[str, Value]]]:
+    """All equations, with their loop variables. rumoca leaves most of a long `for` to a template, and zeros in its
+    place."""
+    templates = {s["first_equation_index"]: s for s in flat["structured_equations"] if not s["interiors_materialized"]}
+    nodes = flat["equations"]
+    index = 0
+    while index < len(nodes):
+        origin = _equation_origin(nodes[index], reader.sources)
+        if loop := templates.get(index):
+            for names in _points(loop["domain"]["binders"]):
+                for residual in loop["template"]["body"]:
+                    yield residual, origin, names
+                    index += 1
+        else:
+            yield nodes[index]["residual"], origin, {}
+            index += 1
+
+
+def _points(binders: list[dict[str, Any]]) -> Iterator[dict[str, Value]]:
+    """The values of the loop variables, the last one changing fastest."""
+    ranges = [range(b["lower"], b["upper"] + (1 if b["step"] > 0 else -1), b["step"]) for b in binders]
+    for point in itertools.product(*ranges):
+        yield {b["display_name"]: sympy.Integer(i) for b, i in zip(binders, point, strict=True)}
+
+
+def _scalars(residual: dict[str, Any], origin: str, reader: EventReader, names: dict[str, Value]) -> Iterator[Equation]:
+    with reader.equation(origin, names):
+        value = reader.read(residual)
+    yield from (Equation(scalar, origin) for scalar in elements(value) if scalar is not None)
 
 
 def _discrete_equation(residual: Node, origin: str, flat: Node, reader: EventReader) -> Alternatives | None:
@@ -179,24 +226,22 @@ def _load(path: Path, class_name: str) -> tuple[rumoca.Model, Sources]:
         files = model.to_dict("dae")["source_map"]["files"]
     except rumoca.RumocaError as error:
         raise BuildError(_located_message(error, entry, class_name)) from None
+    except BaseException as error:  # what rumoca throws when it runs into a mistake of its own is no Exception
+        if type(error).__name__ != "PanicException":
+            raise
+        raise BuildError(f"{entry}: {class_name}: rumoca failed in it: {error}") from None
     return model, Sources({file_id: (name, text) for file_id, name, text in files}, root=entry.parent)
 
 
-def _refuse_unsupported_sections(flat: dict[str, Any], sources: Sources) -> None:
-    for key, what in UNSUPPORTED_SECTIONS.items():
-        if content := flat.get(key):
-            first = next(iter(content.values())) if isinstance(content, dict) else content[0]
-            raise BuildError(f"{sources.find_place(first)}: {what}: not supported")
-
-
-def _constants(nodes: dict[str, Any], reader: EventReader) -> Constants:
-    """Values of Modelica constants: they are put in wherever their names stand."""
-    constants: Constants = {}
-    for name, node in nodes.items():
-        is_text = reader.declared.types[name] == "String"
-        if unwrap(node["variability"]) == "Constant" and node["binding"] is not None and not is_text:
-            constants[sympy.Symbol(name, real=True)] = reader.read_event_free(node["binding"]).xreplace(constants)
-    return constants
+def _fixed(flat: Node) -> frozenset[str]:
+    """Names that are put in as values: constants, and parameters that rumoca has already put in somewhere."""
+    chosen = {".".join(reference) for s in flat.get("parameter_branch_selections", ()) for reference in s["references"]}
+    return frozenset(
+        name
+        for name, node in flat["variables"].items()
+        if node["binding"] is not None and flat["variable_type_names"].get(name) != "String"
+        if unwrap(node["variability"]) == "Constant" or (unwrap(node["variability"]) == "Parameter" and name in chosen)
+    )
 
 
 def _is_text(node: Node, flat: Node) -> bool:
@@ -215,10 +260,12 @@ def _declared(flat: Node) -> Declared:
         kind = flat["variable_type_names"].get(name, "Real")
         variability = unwrap(node["variability"])
         types[name] = "Enumeration" if kind in enumerations else kind
+        names = [name, *(element_names(name, node["dims"]) if node["dims"] else ())]
+        types.update(dict.fromkeys(names, types[name]))
         if variability in {"Parameter", "Constant"}:
-            constant.add(name)
+            constant.update(names)
         if variability == "Discrete" or kind != "Real":
-            discrete.add(name)
+            discrete.update(names)
     return Declared(types, frozenset(discrete), frozenset(constant), flat["enum_literal_ordinals"])
 
 
@@ -227,51 +274,80 @@ def _variability(node: Node, declared: Declared) -> str:
     return named or ("discrete" if node["name"] in declared.discrete else "continuous")
 
 
-def _variable(
-    node: dict[str, Any], flat: Node, reader: EventReader, constants: Constants, kinds: dict[str, EnumerationType]
-) -> Variable:
-    name, origin = node["name"], reader.sources.place(node["source_span"])
-    if node["dims"]:
-        raise BuildError(f"{origin}: array {name}: not supported, write scalar variables instead")
+def _variables(node: Node, flat: Node, reader: EventReader, kinds: dict[str, EnumerationType]) -> list[Variable]:
+    """A variable, or one for each element of an array."""
+    name, origin, dims = node["name"], reader.sources.place(node["source_span"]), node["dims"]
     kind = reader.declared.types[name]
     variability = _variability(node, reader.declared)
     if kind not in {"Real", "Integer", "Boolean", "Enumeration"}:
         raise BuildError(f"{origin}: {name} is of type {kind}: supported are Real, Integer, Boolean and enumerations")
 
-    def expression(key: str) -> sympy.Expr | None:
-        with_events = key == "binding" and variability in {"continuous", "discrete"}
-        read = reader.read if with_events else reader.read_event_free
-        return None if node[key] is None else read(node[key]).xreplace(constants)
+    def expressions(key: str) -> list[sympy.Expr | None]:
+        if node[key] is None:
+            return [None] * len(names)
+        if key == "binding" and variability == "continuous":
+            with reader.equation(origin):
+                value = reader.read(node[key])
+        else:
+            value = (reader.read if key == "binding" and variability == "discrete" else reader.read_event_free)(
+                node[key]
+            )
+        return elements(spread(value, dims)) if dims else [value]
 
-    def number(key: str) -> float | None:
-        value = expression(key)
-        if value is not None and not value.is_number:
-            raise BuildError(f"{origin}: {key} of {name} is {value}: only a number is supported")
-        return None if value is None else float(value)
+    def numbers(key: str) -> list[float | None]:
+        return [None if v is None else _number(v, key, name, origin, reader) for v in expressions(key)]
 
+    names = element_names(name, dims) if dims else [name]
     is_top_level = "." not in name
     causality = unwrap(node["causality"]).lower()
-    fixed = node["fixed"]
-    return Variable(
-        name=name,
-        description=node["description"] or "",
-        unit=node["unit"] or "",
-        quantity=node["quantity"] or "",
-        causality=causality if is_top_level and causality in {"input", "output"} else "local",
-        variability=variability,
-        type=kind,
-        enumeration=kinds.get(flat["variable_type_names"].get(name, "")),
-        start=expression("start"),
-        fixed=variability == "parameter" if fixed is None else bool(fixed[0] if isinstance(fixed, list) else fixed),
-        binding=expression("binding"),
-        min=number("min"),
-        max=number("max"),
-        nominal=number("nominal"),
-        hidden=bool(node["is_protected"]),
-        final=bool(flat["variable_final_flags"].get(name, False)),
-        state_select=STATE_SELECT[unwrap(node["state_select"])],
-        origin=origin,
+    given = node["fixed"] if isinstance(node["fixed"], list) else [node["fixed"]]
+    fixed = [variability == "parameter" if f is None else bool(f) for f in given or [None]]
+    attributes = zip(
+        names,
+        expressions("start"),
+        fixed * len(names) if len(fixed) == 1 else fixed,
+        expressions("binding"),
+        numbers("min"),
+        numbers("max"),
+        numbers("nominal"),
+        strict=True,
     )
+    return [
+        Variable(
+            name=element,
+            description=node["description"] or "",
+            unit=node["unit"] or "",
+            quantity=node["quantity"] or "",
+            causality=causality if is_top_level and causality in {"input", "output"} else "local",
+            variability=variability,
+            type=kind,
+            enumeration=kinds.get(flat["variable_type_names"].get(name, "")),
+            start=start,
+            fixed=is_fixed,
+            binding=binding,
+            min=lowest,
+            max=highest,
+            nominal=nominal,
+            guess=_guess(start, reader),
+            hidden=bool(node["is_protected"]),
+            final=bool(flat["variable_final_flags"].get(name, False)),
+            state_select=STATE_SELECT[unwrap(node["state_select"])],
+            origin=origin,
+        )
+        for element, start, is_fixed, binding, lowest, highest, nominal in attributes
+    ]
+
+
+def _guess(start: sympy.Expr | None, reader: EventReader) -> float:
+    number = sympy.Integer(0) if start is None else reader.components.number(start)
+    return float(number) if number.is_number else 0.0
+
+
+def _number(value: sympy.Expr, key: str, name: str, origin: str, reader: EventReader) -> float:
+    number = reader.components.number(value)
+    if not number.is_number:
+        raise BuildError(f"{origin}: {key} of {name} is {value}: give it a number, or an expression of parameters")
+    return float(number)
 
 
 def _equation_origin(node: dict[str, Any], sources: Sources) -> str:

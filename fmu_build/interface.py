@@ -185,8 +185,8 @@ def _structure(model: SortedModel, entries: tuple[Entry, ...], indicators: list[
 def _sources_of_starts(model: SortedModel, sources: Mapping[str, frozenset[str]]) -> dict[str, frozenset[str]]:
     """What the calculated start values of states depend on."""
     found: dict[str, frozenset[str]] = {}
-    for assignment in model.start_assignments:
-        names = [str(s) for s in assignment.expression.free_symbols]
+    for block in model.start_assignments:
+        names = [str(s) for s in block.arguments]
         parts = [found.get(name, sources.get(name, frozenset((name,)))) for name in names]
-        found[assignment.target] = frozenset().union(*parts)
+        found |= dict.fromkeys(block.targets, frozenset().union(*parts))
     return {name: found[name] for name in (*model.calculated_states, *model.free_parameters)}

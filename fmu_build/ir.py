@@ -9,6 +9,7 @@ An enumeration is the number of its literal, from 1.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import sympy
 
@@ -58,6 +59,12 @@ class round_down(sympy.Function):  # type: ignore[misc]
     """The largest integer not above its argument, whose derivative is 0 wherever it has one."""
 
     nargs = 1
+    is_real = True
+
+    @classmethod
+    def eval(cls, argument: sympy.Expr) -> sympy.Expr | None:
+        """A number, of a number."""
+        return sympy.floor(argument) if argument.is_number else None
 
     def fdiff(self, argindex: int = 1) -> sympy.Expr:
         """0"""
@@ -90,6 +97,7 @@ class Variable:
     min: float | None = None
     max: float | None = None
     nominal: float | None = None
+    guess: float = 0.0  # the start value as a number, where a nonlinear loop starts to look for a solution
     hidden: bool = False  # protected
     final: bool = False
     state_select: int = 0  # StateSelect: never -2, avoid -1, default 0, prefer 1, always 2
@@ -121,6 +129,16 @@ class Assignment:
     target: str
     expression: sympy.Expr
     origin: str
+
+    @property
+    def targets(self) -> tuple[str, ...]:
+        """What is computed."""
+        return (self.target,)
+
+    @property
+    def arguments(self) -> set[sympy.Symbol]:
+        """What it is computed from."""
+        return set(self.expression.free_symbols)
 
 
 @dataclass(frozen=True)
@@ -329,6 +347,46 @@ class EquationSystem:
 
 
 @dataclass(frozen=True)
+class Loop:
+    """Unknowns that residuals, as many, determine together; found at run time.
+
+    A linear loop is solved by one elimination. In another one the ``explicit`` unknowns are computed, in their order,
+    from the ``iterated`` ones, and Newton's method looks for these, starting from ``guesses``, a variable for each.
+    """
+
+    iterated: tuple[str, ...]
+    explicit: tuple[Assignment, ...]
+    residuals: tuple[Equation, ...]  # those of the explicit ones last, in their order
+    slopes: dict[tuple[int, int], sympy.Expr] = field(hash=False)  # residual by unknown
+    is_linear: bool
+    guesses: tuple[str, ...] = ()
+
+    @property
+    def unknowns(self) -> tuple[str, ...]:
+        """All that is found: the iterated ones, then the explicit ones."""
+        return (*self.iterated, *(a.target for a in self.explicit))
+
+    @property
+    def targets(self) -> tuple[str, ...]:
+        """What is computed."""
+        return (*self.unknowns, *self.guesses)
+
+    @property
+    def arguments(self) -> set[sympy.Symbol]:
+        """What it is computed from, guesses left out: they decide only where the search starts."""
+        symbols = set().union(*(r.residual.free_symbols for r in self.residuals))
+        return symbols - {symbol(name) for name in self.unknowns}
+
+    @property
+    def origin(self) -> str:
+        """The places of its equations."""
+        return ", ".join(dict.fromkeys(r.origin for r in self.residuals))
+
+
+Block = Assignment | Loop
+
+
+@dataclass(frozen=True)
 class ScheduledReinit:
     """``state`` gets the value of the variable ``value`` where the Boolean variable ``active`` is true."""
 
@@ -368,8 +426,8 @@ class Memory:
 class Schedule:
     """What happens at events, in the order in which it can be computed."""
 
-    assignments: tuple[Assignment, ...] = ()
-    check_assignments: tuple[Assignment, ...] = ()  # of checks at any time
+    assignments: tuple[Block, ...] = ()
+    check_assignments: tuple[Block, ...] = ()  # of checks at any time
     memories: tuple[Memory, ...] = ()
     reinits: tuple[ScheduledReinit, ...] = ()
     samples: tuple[ScheduledSample, ...] = ()
@@ -395,9 +453,9 @@ class SortedModel:
     inputs: tuple[str, ...]
     parameters: tuple[str, ...]
     parameter_assignments: tuple[Assignment, ...]
-    start_assignments: tuple[Assignment, ...]  # states whose start follows from parameters
-    start_values: dict[str, float] = field(hash=False)  # states whose start is a number
-    assignments: tuple[Assignment, ...]
+    start_assignments: tuple[Block, ...]  # states whose start follows from parameters
+    start_values: dict[str, float] = field(hash=False)  # states whose start is a number, and guesses of loops
+    assignments: tuple[Block, ...]
     relations: tuple[Relation, ...]  # the residual of number i is the variable relation_name(i)
     free_parameters: tuple[str, ...] = ()  # start_assignments calculate them
     schedule: Schedule = Schedule()
@@ -405,33 +463,35 @@ class SortedModel:
     @property
     def calculated_states(self) -> tuple[str, ...]:
         """The states whose start values start_assignments calculate."""
-        targets = {a.target for a in self.start_assignments}
+        targets = {name for block in self.start_assignments for name in block.targets}
         return tuple(state for state in self.states if state in targets)
 
     @property
     def event_variables(self) -> tuple[str, ...]:
         """Variables that change at events alone: discrete ones, their values before, and what schedules them."""
         schedule = self.schedule
-        continuous = {*self.states, *self.derivatives, *(a.target for a in self.assignments)}
-        targets = [a.target for a in (*schedule.assignments, *schedule.check_assignments)]
+        continuous = {*self.states, *self.derivatives, *(name for block in self.assignments for name in block.targets)}
+        targets = [name for b in (*schedule.assignments, *schedule.check_assignments) for name in b.targets]
         flags = [sample.flag for sample in schedule.samples]
         before = [memory.before for memory in schedule.memories]
         always = [] if schedule.is_empty else [INITIAL, TERMINAL]
         return tuple(dict.fromkeys(n for n in (*targets, *before, *flags, *always) if n not in continuous))
 
-    @property
+    @cached_property
     def derivatives(self) -> tuple[str, ...]:
         """Names of the states' derivatives, in the order of the states."""
         return tuple(der(state) for state in self.states)
 
-    @property
+    @cached_property
     def value_references(self) -> dict[str, int]:
         """The table of variables: name to index in ``Variables.at[]``, in the order that model.h prescribes."""
         leading = (TIME, *self.states, *self.derivatives, *self.inputs, *self.parameters)
         calculated = tuple(a.target for a in self.parameter_assignments)
         known = {*leading, *calculated}
-        others = tuple(a.target for a in self.assignments if a.target not in known)
-        discrete = (n for n in (*self.free_parameters, *self.event_variables) if n not in known)
+        loops = (b for b in self.start_assignments if isinstance(b, Loop))
+        blocks = (*(name for b in self.assignments for name in b.targets), *(g for b in loops for g in b.guesses))
+        others = tuple(name for name in dict.fromkeys(blocks) if name not in known)
+        discrete = (n for n in (*self.free_parameters, *self.event_variables) if n not in {*known, *others})
         return {name: index for index, name in enumerate((*leading, *calculated, *others, *discrete))}
 
 
@@ -445,6 +505,30 @@ class Partials:
 
 
 @dataclass(frozen=True)
+class LoopPartials:
+    """The partial derivatives of a loop's residuals by each of its arguments, with which those of its unknowns follow
+    from the implicit function theorem."""
+
+    loop: Loop
+    by_argument: tuple[tuple[tuple[str, sympy.Expr], ...], ...]  # for each residual
+
+
+@dataclass(frozen=True)
+class LoopGradient:
+    """How a loop's unknowns change with one seed: minus the inverse of its slopes, times ``right``."""
+
+    loop: Loop
+    targets: tuple[str, ...]  # in the order of its unknowns
+    right: tuple[sympy.Expr, ...]  # derivatives of its residuals
+
+    @property
+    def arguments(self) -> set[sympy.Symbol]:
+        """What it is computed from."""
+        slopes = set().union(*(value.free_symbols for value in self.loop.slopes.values()))
+        return slopes.union(*(value.free_symbols for value in self.right))
+
+
+@dataclass(frozen=True)
 class JacobianModel:
     """Exact derivatives: those of every assignment by itself, and chained those of the states' derivatives.
 
@@ -453,9 +537,9 @@ class JacobianModel:
     """
 
     parameter_partials: tuple[Partials, ...]
-    start_partials: tuple[Partials, ...]
-    partials: tuple[Partials, ...]
-    assignments: tuple[Assignment, ...]
+    start_partials: tuple[Partials | LoopPartials, ...]
+    partials: tuple[Partials | LoopPartials, ...]
+    assignments: tuple[Assignment | LoopGradient, ...]
     entries: dict[tuple[int, int], sympy.Expr] = field(hash=False)
     time_entries: dict[int, sympy.Expr] = field(hash=False)
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import sympy
 
-from .ir import TIME, Assignment, JacobianModel, Partials, SortedModel, symbol
+from .ir import TIME, Assignment, Block, JacobianModel, Loop, LoopGradient, LoopPartials, Partials, SortedModel, symbol
+from .loops import loop_gradients, loop_partials
 from .slices import needed_for, reaching
 
 
@@ -17,9 +18,12 @@ def differentiate(model: SortedModel) -> JacobianModel:
     """The derivatives of ``model.derivatives`` by each state and by time, between events."""
     seeds = {name: number for number, name in enumerate((*model.states, TIME))}
     gradients: dict[str, dict[str, sympy.Expr]] = {seed: {seed: sympy.Integer(1)} for seed in seeds}
-    locals_: list[Assignment] = []
-    for assignment in needed_for(model.derivatives, model):
-        gradients[assignment.target] = _gradient(assignment, gradients, seeds, locals_)
+    locals_: list[Assignment | LoopGradient] = []
+    for block in needed_for(model.derivatives, model):
+        if isinstance(block, Loop):
+            gradients |= loop_gradients(block, gradients, seeds, locals_)
+        else:
+            gradients[block.target] = _gradient(block, gradients, seeds, locals_)
     states = {name: column for column, name in enumerate(model.states)}
     entries, time_entries = {}, {}
     for row, name in enumerate(model.derivatives):
@@ -31,12 +35,16 @@ def differentiate(model: SortedModel) -> JacobianModel:
     results = (*entries.values(), *time_entries.values())
     return JacobianModel(
         parameter_partials=_partials(model.parameter_assignments),
-        start_partials=_partials(model.start_assignments),
-        partials=_partials(model.assignments),
+        start_partials=_of_blocks(model.start_assignments),
+        partials=_of_blocks(model.assignments),
         assignments=reaching(set().union(*(value.free_symbols for value in results)), locals_),
         entries=entries,
         time_entries=time_entries,
     )
+
+
+def _of_blocks(blocks: tuple[Block, ...]) -> tuple[Partials | LoopPartials, ...]:
+    return tuple(loop_partials(block) if isinstance(block, Loop) else _partials((block,))[0] for block in blocks)
 
 
 def _partials(assignments: tuple[Assignment, ...]) -> tuple[Partials, ...]:
@@ -58,7 +66,7 @@ def _gradient(
     assignment: Assignment,
     gradients: dict[str, dict[str, sympy.Expr]],
     seeds: dict[str, int],
-    locals_: list[Assignment],
+    locals_: list[Assignment | LoopGradient],
 ) -> dict[str, sympy.Expr]:
     arguments = sorted((s for s in assignment.expression.free_symbols if s.name in gradients), key=str)
     partials = {s.name: assignment.expression.diff(s) for s in arguments}

@@ -62,10 +62,10 @@ def _coupling(text: str, model: SortedModel) -> Coupling:
         if found != needed:
             raise BuildError(f"{place}: {key} = {names[key]}: this is of kind {found}, needed is {needed}")
     for key in REPLACED:
-        users = [a for a in model.assignments if symbol(names[key]) in a.expression.free_symbols]
+        users = [block for block in model.assignments if symbol(names[key]) in block.arguments]
         if users:
             raise BuildError(
-                f"{place}: {key} = {names[key]}: {users[0].target} depends on it ({users[0].origin}), nothing may"
+                f"{place}: {key} = {names[key]}: {users[0].targets[0]} depends on it ({users[0].origin}), nothing may"
             )
     snake = {re.sub(r"[A-Z]", lambda m: "_" + m.group().lower(), key): name for key, name in names.items()}
     return Coupling(**snake)

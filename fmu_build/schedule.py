@@ -11,6 +11,7 @@ import sympy
 from .errors import BuildError
 from .ir import (
     Assignment,
+    Block,
     EquationSystem,
     Memory,
     Relation,
@@ -35,7 +36,7 @@ class Scheduled:
     residuals: tuple[sympy.Expr, ...]
 
 
-def schedule(system: EquationSystem, continuous: Sequence[Assignment]) -> Scheduled:
+def schedule(system: EquationSystem, continuous: Sequence[Block]) -> Scheduled:
     """The schedule of ``system``, whose unknowns ``continuous`` computes; BuildError where a loop leads through it."""
     events = system.events
     times = [(f"time_event[{i + 1}]", r) for i, r in enumerate(r for r in system.relations if r.until is not None)]
@@ -92,9 +93,7 @@ def _values(message: object) -> set[sympy.Symbol]:
     return set().union(*(value.free_symbols for value, _ in getattr(message, "values", ())))
 
 
-def _for_checks(
-    system: EquationSystem, continuous: Sequence[Assignment], tests: list[Assignment]
-) -> tuple[Assignment, ...]:
+def _for_checks(system: EquationSystem, continuous: Sequence[Block], tests: list[Assignment]) -> tuple[Block, ...]:
     wanted = {symbol(a.target) for a in tests}
     for check in system.events.checks[system.events.n_event_checks :]:
         wanted |= _values(check.message)
@@ -106,13 +105,11 @@ def _residuals(relations: Sequence[Relation], times: list[str]) -> list[sympy.Ex
     return [r.residual if r.until is None else symbol(next(names)) - symbol("time") for r in relations]
 
 
-def _memories(
-    system: EquationSystem, own: Sequence[Assignment], continuous: Sequence[Assignment]
-) -> tuple[Memory, ...]:
+def _memories(system: EquationSystem, own: Sequence[Assignment], continuous: Sequence[Block]) -> tuple[Memory, ...]:
     """Of every discrete variable, and of others whose value before an event is asked for."""
     variables = {v.name: v for v in system.model.variables}
     symbols = set().union(
-        *(a.expression.free_symbols for a in (*own, *continuous)), *(r.residual.free_symbols for r in system.relations)
+        *(block.arguments for block in (*own, *continuous)), *(r.residual.free_symbols for r in system.relations)
     )
     asked = {s.name for s in symbols}
     calculated = {a.target for a in system.events.assignments if not a.target.startswith("fires[")}
@@ -120,20 +117,20 @@ def _memories(
     return tuple(Memory(name, pre(name), variables[name].variability == "discrete") for name in names)
 
 
-def _ordered(assignments: Sequence[Assignment]) -> list[Assignment]:
+def _ordered(blocks: Sequence[Block]) -> list[Block]:
     """Each behind those that it needs, otherwise as they are."""
-    by_target = {a.target: a for a in assignments}
-    position = {target: index for index, target in enumerate(by_target)}
+    by_target = {target: index for index, block in enumerate(blocks) for target in block.targets}
     needs = nx.DiGraph()
-    needs.add_nodes_from(by_target)
-    for assignment in assignments:
-        needed = sorted(s.name for s in assignment.expression.free_symbols if s.name in by_target)
-        needs.add_edges_from((name, assignment.target) for name in needed)
+    needs.add_nodes_from(range(len(blocks)))
+    for index, block in enumerate(blocks):
+        needed = sorted(s.name for s in block.arguments if s.name in by_target)
+        needs.add_edges_from((by_target[name], index) for name in needed)
     try:
-        return [by_target[name] for name in nx.lexicographical_topological_sort(needs, key=position.__getitem__)]
+        return [blocks[index] for index in nx.lexicographical_topological_sort(needs)]
     except nx.NetworkXUnfeasible:
-        loop = [name for name, _ in nx.find_cycle(needs)]
-        places = ", ".join(dict.fromkeys(by_target[name].origin for name in loop))
+        loop = [blocks[index] for index, _ in nx.find_cycle(needs)]
+        places = ", ".join(dict.fromkeys(block.origin for block in loop))
+        names = ", ".join(name for block in loop for name in block.targets)
         raise BuildError(
-            f"{places}: {', '.join(loop)} depend on each other, and not all are continuous: put pre() around one"
+            f"{places}: {names} depend on each other, and not all are continuous: put pre() around one"
         ) from None

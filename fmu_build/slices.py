@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import TypeVar
 
 import sympy
 
-from .ir import Assignment, SortedModel, holds, symbol
+from .ir import Assignment, Block, LoopGradient, SortedModel, symbol
 
 
-def needed_for(targets: Iterable[str], model: SortedModel) -> tuple[Assignment, ...]:
+def needed_for(targets: Iterable[str], model: SortedModel) -> tuple[Block, ...]:
     """The assignments, in order, that computing ``targets`` takes."""
     return reaching({symbol(name) for name in targets}, model.assignments)
 
@@ -22,10 +23,14 @@ def dependencies(model: SortedModel) -> dict[str, frozenset[str]]:
     leaves = (*model.states, *model.inputs, *model.parameters, *model.free_parameters, "time")
     known = {name: frozenset((name,)) for name in leaves}
     result: dict[str, frozenset[str]] = dict(known)
-    for assignment in (*model.parameter_assignments, *model.schedule.assignments, *model.assignments):
-        result[assignment.target] = _sources(assignment.expression, model, result)
-    for assignment in model.schedule.check_assignments:
-        result[assignment.target] = _sources(assignment.expression, model, result)
+    schedule = model.schedule
+    for block in (
+        *model.parameter_assignments,
+        *schedule.assignments,
+        *model.assignments,
+        *schedule.check_assignments,
+    ):
+        result |= dict.fromkeys(block.targets, _sources(block.arguments, model, result))
     return {name: sources for name, sources in result.items() if name not in known}
 
 
@@ -34,7 +39,8 @@ def tunable_parameters(model: SortedModel) -> frozenset[str]:
     sources = dependencies(model)
     schedule = model.schedule
     used = (*model.assignments, *schedule.assignments, *schedule.check_assignments)
-    effective = frozenset().union(*(sources.get(a.target, frozenset()) for a in used)) & {*model.parameters}
+    effective = frozenset().union(*(sources.get(name, frozenset()) for block in used for name in block.targets))
+    effective &= {*model.parameters}
     calculated = {a.target for a in model.parameter_assignments if sources[a.target] & effective}
     return effective | calculated
 
@@ -57,20 +63,22 @@ def start_value(name: str, model: SortedModel) -> float:
     return 0.0 if value is None else float(value)
 
 
-def _sources(expression: sympy.Expr, model: SortedModel, result: dict[str, frozenset[str]]) -> frozenset[str]:
-    symbols = set(expression.free_symbols)
-    for index, relation in enumerate(model.relations):
-        if holds(index) in symbols:
-            symbols |= relation.residual.free_symbols
+def _sources(arguments: set[sympy.Symbol], model: SortedModel, result: dict[str, frozenset[str]]) -> frozenset[str]:
+    symbols = set(arguments)
+    for index in sorted(int(s.name[6:-1]) for s in arguments if s.name.startswith("holds[")):
+        symbols |= model.relations[index].residual.free_symbols
     return frozenset().union(*(result.get(s.name, frozenset()) for s in symbols))
 
 
-def reaching(wanted: set[sympy.Symbol], assignments: Sequence[Assignment]) -> tuple[Assignment, ...]:
-    """Those of the sorted ``assignments`` that computing ``wanted`` takes, in their order."""
-    kept: list[Assignment] = []
+Computed = TypeVar("Computed", Assignment, Block, Assignment | LoopGradient)
+
+
+def reaching(wanted: set[sympy.Symbol], blocks: Sequence[Computed]) -> tuple[Computed, ...]:
+    """Those of the sorted ``blocks`` that computing ``wanted`` takes, in their order."""
+    kept: list[Computed] = []
     wanted = set(wanted)
-    for assignment in reversed(assignments):
-        if symbol(assignment.target) in wanted:
-            kept.append(assignment)
-            wanted |= assignment.expression.free_symbols
+    for block in reversed(blocks):
+        if any(symbol(target) in wanted for target in block.targets):
+            kept.append(block)
+            wanted |= block.arguments
     return tuple(reversed(kept))

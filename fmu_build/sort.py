@@ -1,12 +1,14 @@
 """An EquationSystem to a SortedModel: which equation gives which unknown, and in which order.
 
 Matching (Hopcroft and Karp 1973), then the strongly connected components of the dependencies (Tarjan 1972): each is a
-block that must be solved together. A block of one equation is solved for its unknown, a larger one if it is linear.
+block that must be solved together. A block of one equation that is linear in its unknown is solved for it here; what
+is left are loops (see loops.py), which are solved at run time.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TypeGuard
 
 import networkx as nx
 import sympy
@@ -16,15 +18,17 @@ from .ir import (
     INITIAL,
     TERMINAL,
     Assignment,
+    Block,
     Equation,
     EquationSystem,
+    Loop,
     Relation,
     SortedModel,
     Variable,
-    der,
     relation_name,
     symbol,
 )
+from .loops import guess_variables, make_loop, rest, slope
 from .schedule import Scheduled, schedule
 from .slices import reaching
 from .units import per_second
@@ -34,7 +38,7 @@ def sort(system: EquationSystem) -> SortedModel:
     """The sorted model; BuildError where unknowns cannot be computed one after another."""
     model = system.model
     variables = _with_derivatives(system)
-    solved = _assignments(list(system.equations), list(system.unknowns))
+    solved = _blocks(list(system.equations), list(system.unknowns))
     events = schedule(system, solved)
     variables |= _for_events(events, variables)
     residuals = [
@@ -46,6 +50,12 @@ def sort(system: EquationSystem) -> SortedModel:
         r.target: _residual_variable(r, relation, variables)
         for r, relation in zip(residuals, system.relations, strict=True)
     }
+    loops = [block for block in (*solved, *starts) if isinstance(block, Loop)]
+    guesses = {
+        guess: variables[name].guess for loop in loops for guess, name in zip(loop.guesses, loop.iterated, strict=False)
+    }
+    for loop in loops:
+        variables |= guess_variables(loop, variables)
     return SortedModel(
         name=model.name,
         description=model.description,
@@ -54,9 +64,9 @@ def sort(system: EquationSystem) -> SortedModel:
         states=system.states,
         inputs=system.inputs,
         parameters=system.parameters,
-        parameter_assignments=_assignments(list(system.bound_parameters.values()), list(system.bound_parameters)),
-        start_assignments=tuple(a for a in starts if not _is_start_value(a, system)),
-        start_values={a.target: float(a.expression) for a in starts if _is_start_value(a, system)},
+        parameter_assignments=_parameter_assignments(system),
+        start_assignments=tuple(block for block in starts if not _is_start_value(block, system)),
+        start_values={a.target: float(a.expression) for a in starts if _is_start_value(a, system)} | guesses,
         assignments=(*solved, *residuals, *_copies(system, variables)),
         relations=system.relations,
         free_parameters=system.free_parameters,
@@ -76,32 +86,43 @@ def _for_events(events: Scheduled, variables: dict[str, Variable]) -> dict[str, 
     return own | {flag.name: flag for flag in flags}
 
 
-def _starts(system: EquationSystem) -> tuple[Assignment, ...]:
+def _starts(system: EquationSystem) -> tuple[Block, ...]:
     """What states, free parameters and discrete variables before the start are set to, and what that takes."""
     origins = {v.name: v.origin for v in system.model.variables}
     if system.initial_unknowns:
-        ordered = _assignments(list(system.initial_equations), list(system.initial_unknowns))
-        known = [a for a in ordered if a.target in system.states and a.expression.is_number]
-        others = [a for a in ordered if a not in known]
+        ordered = _blocks(list(system.initial_equations), list(system.initial_unknowns))
+        known = [block for block in ordered if _is_start_value(block, system)]
+        others = [block for block in ordered if not any(block is one for one in known)]
         wanted = {*system.states, *system.free_parameters} - {a.target for a in known}
-        continuous = (*known, *reaching({symbol(name) for name in wanted}, others))
+        continuous: tuple[Block, ...] = (*known, *reaching({symbol(name) for name in wanted}, others))
     else:
         continuous = tuple(Assignment(state, start, origins[state]) for state, start in system.starts.items())
     return (*continuous, *system.starts_before)
 
 
-def _is_start_value(assignment: Assignment, system: EquationSystem) -> bool:
+def _is_start_value(block: Block, system: EquationSystem) -> TypeGuard[Assignment]:
     """Whether it is a number that can be set instead, or that a discrete variable has before the start."""
-    is_kept = assignment.target in system.states or assignment.target.startswith("pre(")
-    return bool(is_kept and assignment.expression.is_number)
+    if isinstance(block, Loop):
+        return False
+    is_kept = block.target in system.states or block.target.startswith("pre(")
+    return bool(is_kept and block.expression.is_number)
+
+
+def _parameter_assignments(system: EquationSystem) -> tuple[Assignment, ...]:
+    bound = system.bound_parameters
+    result: list[Assignment] = []
+    for block in _blocks(list(bound.values()), list(bound)):
+        if isinstance(block, Loop):
+            raise BuildError(f"{block.origin}: the parameters {', '.join(block.unknowns)} depend on each other")
+        result.append(block)
+    return tuple(result)
 
 
 def _with_derivatives(system: EquationSystem) -> dict[str, Variable]:
     variables = {v.name: v for v in system.model.variables}
-    names = {der(name): name for name in variables}
-    for unknown in system.unknowns:
-        if unknown in names:
-            of = variables[names[unknown]]
+    for unknown in sorted(system.unknowns, key=lambda name: name.count("der(")):
+        if unknown not in variables:
+            of = variables[unknown.removeprefix("der(").removesuffix(")")]
             variables[unknown] = Variable(
                 unknown, f"Time derivative of {of.name}", per_second(of.unit), hidden=of.hidden
             )
@@ -130,7 +151,7 @@ def _residual_variable(residual: Assignment, relation: Relation, variables: dict
     return Variable(residual.target, text, unit, hidden=True)
 
 
-def _assignments(equations: list[Equation], unknowns: list[str]) -> tuple[Assignment, ...]:
+def _blocks(equations: list[Equation], unknowns: list[str]) -> tuple[Block, ...]:
     matched = _match(equations, unknowns)
     order = {name: position for position, name in enumerate(unknowns)}
     needs = nx.DiGraph()
@@ -140,9 +161,9 @@ def _assignments(equations: list[Equation], unknowns: list[str]) -> tuple[Assign
         needs.add_edges_from((other, name) for other in needed)
     blocks = nx.condensation(needs)
     members = {node: sorted(blocks.nodes[node]["members"], key=order.__getitem__) for node in blocks}
-    result: list[Assignment] = []
+    result: list[Block] = []
     for node in nx.lexicographical_topological_sort(blocks, key=lambda n: order[members[n][0]]):
-        result += _solve(members[node], matched)
+        result.append(_solve(members[node], matched))
     return tuple(result)
 
 
@@ -167,14 +188,10 @@ def _match(equations: list[Equation], unknowns: list[str]) -> dict[str, Equation
     return {name: equations[matching[name]] for name in unknowns}
 
 
-def _solve(names: list[str], matched: dict[str, Equation]) -> list[Assignment]:
-    unknowns = [symbol(name) for name in names]
-    equations = [matched[name] for name in names]
-    places = ", ".join(dict.fromkeys(e.origin for e in equations))
-    slopes = sympy.Matrix([[e.residual.diff(u) for u in unknowns] for e in equations])
-    if slopes.free_symbols & set(unknowns):
-        raise BuildError(f"{places}: not linear in {', '.join(names)}: only linear equations can be solved")
-    rest = [e.residual.xreplace(dict.fromkeys(unknowns, sympy.Integer(0))) for e in equations]
-    is_scalar = len(names) == 1
-    solution = [-rest[0] / slopes[0, 0]] if is_scalar else list(slopes.LUsolve(-sympy.Matrix(rest)))
-    return [Assignment(n, s, e.origin) for n, s, e in zip(names, solution, equations, strict=True)]
+def _solve(names: list[str], matched: dict[str, Equation]) -> Block:
+    if len(names) == 1:
+        name, equation = names[0], matched[names[0]]
+        value = slope(equation, name)
+        if value is not None and value != 0:
+            return Assignment(name, -rest(equation, names) / value, equation.origin)
+    return make_loop(names, matched)

@@ -5,6 +5,7 @@
 
 #include "coupling.h"
 #include "discrete.h"
+#include "loops.h"
 #include "validation.h"
 
 const char *const category_name[N_LOG_CATEGORIES] = {
@@ -207,6 +208,7 @@ Status instance_get(Instance *instance, ValueType type, const unsigned reference
     for (size_t i = 0; i < n; i++) {
         values[i] = s->v.at[references[i]];
         if (!valid_result(references[i], values[i], s->v.time, &why)) {
+            loops_explain(&s->v, &why);
             return instance_refuse(instance, &why);
         }
     }
@@ -242,6 +244,7 @@ Status instance_copy(const Instance *instance, int first, int n, double values[]
     for (int i = 0; i < n; i++) {
         values[i] = v->at[first + i];
         if (!valid_result((unsigned)(first + i), values[i], v->time, &why)) {
+            loops_explain(v, &why);
             return instance_discard(instance, &why);
         }
     }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "events.h"
+#include "loops.h"
 
 /* The error estimate, of the embedded solution of order 4, goes with the fifth power of the length. */
 static const double ERROR_ORDER = 5.0;
@@ -127,11 +128,12 @@ static void learn(Integrator *m, double length, double error, bool rejected)
     m->error_constant = error > TELLING_ERROR ? constant : 0.0;
 }
 
-static bool explain_start(const Rodas *r, int state, Message *why)
+static bool explain_start(const Rodas *r, const Variables *v, int state, Message *why)
 {
     const VariableInfo *info = &variable_info[FIRST_STATE + state];
     message_write(why, "the derivative of %s, or its Jacobian, is not finite at t = %s, where %s = %s", info->name,
                   quantity(r->path.time, "s").text, info->name, quantity(r->path.state[state], info->unit).text);
+    loops_explain(v, why);
     return false;
 }
 
@@ -144,13 +146,14 @@ static int worst_state(const Rodas *r, double tolerance)
     return worst;
 }
 
-static bool explain_collapse(const Rodas *r, int not_finite, double tolerance, Message *why)
+static bool explain_collapse(const Rodas *r, const Variables *v, int not_finite, double tolerance, Message *why)
 {
     const bool finite = not_finite == FINITE;
     const int state = finite ? worst_state(r, tolerance) : not_finite;
     message_write(why, "no step can be made from t = %s, however small: %s %s", quantity(r->path.time, "s").text,
                   finite ? "the largest error is that of" : "not finite is the derivative of",
                   N_STATES > 0 ? variable_info[FIRST_STATE + state].name : "nothing");
+    loops_explain(v, why);
     return false;
 }
 
@@ -171,7 +174,7 @@ static bool accept(Integrator *m, Rodas *r, Variables *v, const bool holds[], do
         *length = fmax(MAX_SHRINK * *length, shrunk);
         m->length = *length;
         if (*length < shortest) {
-            return explain_collapse(r, not_finite, tolerance, why);
+            return explain_collapse(r, v, not_finite, tolerance, why);
         }
     }
 }
@@ -217,7 +220,7 @@ static bool start(Integrator *m, Rodas *r, Variables *v, const bool holds[], con
     m->counters.jacobians++;
     const int not_finite = rodas_start(r, v, holds, ramp);
     if (not_finite != FINITE) {
-        return explain_start(r, not_finite, why);
+        return explain_start(r, v, not_finite, why);
     }
     if (m->length <= 0.0) {
         m->length = first_length(r, tolerance);

@@ -14,6 +14,15 @@ void message_write(Message *message, const char *format, ...)
     va_end(arguments);
 }
 
+void message_append(Message *message, const char *format, ...)
+{
+    const size_t length = strlen(message->text);
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(message->text + length, sizeof message->text - length, format, arguments);
+    va_end(arguments);
+}
+
 Quantity quantity(double value, const char *unit)
 {
     Quantity q;

@@ -19,6 +19,9 @@ typedef struct {
 /* Longer texts are cut off. */
 void message_write(Message *message, const char *format, ...) PRINTF_LIKE(2, 3);
 
+/* The same, behind what is there. */
+void message_append(Message *message, const char *format, ...) PRINTF_LIKE(2, 3);
+
 /* A value with its unit: "0.1 m/s", "infinity", "NaN". */
 Quantity quantity(double value, const char *unit);
 

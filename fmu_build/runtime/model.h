@@ -33,7 +33,7 @@
  */
 
 /* and #define N_COUPLINGS 0, or 1, and HAS_EVENTS 0, or 1: macros, because they decide what is compiled (see
- * coupling_info and model_discrete below). */
+ * coupling_info and model_discrete below). N_LOOPS, how many algebraic loops there are, may be left out: none. */
 
 /* ISO C has no arrays of length zero, and a model may have no states or no relations. */
 #define AT_LEAST_ONE(n) ((n) > 0 ? (n) : 1)

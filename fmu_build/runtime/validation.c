@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "finite.h"
+#include "loops.h"
 
 static const double LOOSEST_TOLERANCE = 1e-2;
 static const double TIGHTEST_TOLERANCE = 1e-12;
@@ -193,5 +194,10 @@ bool valid_states(const Point *p, double tolerance, Message *why)
 bool valid_variables(const Variables *v, Message *why)
 {
     const int bad = first_not_finite(v->at, N_VARIABLES);
-    return bad == FINITE || valid_result((unsigned)bad, v->at[bad], v->time, why);
+    if (bad == FINITE) {
+        return true;
+    }
+    (void)valid_result((unsigned)bad, v->at[bad], v->time, why);
+    loops_explain(v, why);
+    return false;
 }

@@ -54,7 +54,8 @@ class CompiledModel:
             (folder / name).write_text(text, encoding="utf-8")
         library = folder / "model.so"
         flags = ["-std=c11", "-O1", "-fPIC", "-shared", *WARNINGS, "-Werror", f"-I{folder}", f"-I{RUNTIME}"]
-        subprocess.run([*compiler(), *flags, str(folder / "model.c"), "-o", str(library), "-lm"], check=True)
+        sources = [str(folder / "model.c"), *(str(RUNTIME / name) for name in ("loops.c", "message.c"))]
+        subprocess.run([*compiler(), *flags, *sources, "-o", str(library), "-lm"], check=True)
         self._library = ctypes.CDLL(str(library))
         self.model = model
         self._entries = tuple(jacobian.entries)

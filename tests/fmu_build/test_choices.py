@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
-
-from fmu_build.errors import BuildError
-from fmu_build.frontend import flatten
 
 from .conftest import CompiledModel
 
@@ -87,9 +83,3 @@ def test_partial_derivatives_are_those_of_the_branch_in_force(model: CompiledMod
             np.testing.assert_allclose(exact[:, column], (around[0] - around[1]) / (2 * step), rtol=1e-7, atol=1e-9)
             tangent = model.tangent({name: 1.0}, at_start=False)
             assert [tangent[f"der({s})"] for s in ("x", "y")] == pytest.approx(exact[:, column], rel=1e-14)
-
-
-def test_a_minimum_over_an_array_is_refused(modelica_file: Callable[[str], Path]) -> None:
-    text = "model M\n  Real x(start=1, fixed=true);\nequation\n  der(x) = min({x, 2});\nend M;"
-    with pytest.raises(BuildError, match=r"M.mo:4: Min in .*: not supported"):
-        flatten(modelica_file(text), "M")

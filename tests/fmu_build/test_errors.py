@@ -52,9 +52,6 @@ BROKEN = {
         "String(scalar)",
     ),
     "text": ('model M\n  String s = "a";\n  Real x = time;\nend M;', "M.mo:2", "String"),
-    "array": ("model M\n  Real x[2];\nequation\n  x[1] = 1;\n  x[2] = 2;\nend M;", "M.mo:2", "array"),
-    "nonlinear": ("model M\n  Real x;\nequation\n  x^3 + x = time;\nend M;", "M.mo:4", "linear"),
-    "function": ("model M\n  Real x = sign(time);\nend M;", "M.mo:2", "Sign"),
     "index": (
         "model M\n  Real x(start=0, fixed=true);\n  Real y(start=0, fixed=true);\n"
         "equation\n  der(x) + der(y) = 1;\n  x = 2*y;\nend M;",

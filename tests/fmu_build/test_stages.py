@@ -135,10 +135,10 @@ end M;"""
 def test_relations_of_equal_residual_are_one(modelica_library: Path) -> None:
     model = sort(derive(flatten(modelica_library, "OverrunHitch.Systems.CarTrailer")))
     assert [r.text for r in model.relations] == [
-        "compression > s_4",
-        "compression > s_3",
-        "compression > s_2",
         "compression > s_1",
+        "compression > s_2",
+        "compression > s_3",
+        "compression > s_4",
         "compression > eps",
         "compression < 0",
         "asymmetry*v_rel < 0",
