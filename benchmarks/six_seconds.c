@@ -15,6 +15,8 @@
 #include "lu.h"
 #include "rodas5p.h"
 
+static const double DURATION = 6.0; /* s */
+
 enum { STEPS = 600, MAX_RUNS = 10000, KINDS = 5 };
 
 static const char *const kind_name[KINDS] = {"right-hand side", "Jacobian", "factorization", "solution", "outputs"};
@@ -41,7 +43,8 @@ static double run(fmi2Component c, const fmi2ValueReference references[], double
     const double size = 0.01;
     const Instance *instance = c;
     const double start = now();
-    bool fine = fmi2Reset(c) == fmi2OK && fmi2SetupExperiment(c, fmi2True, tolerance, 0.0, fmi2False, 0.0) == fmi2OK &&
+    bool fine = fmi2Reset(c) == fmi2OK &&
+                fmi2SetupExperiment(c, fmi2True, tolerance, 0.0, fmi2True, DURATION) == fmi2OK &&
                 fmi2EnterInitializationMode(c) == fmi2OK && fmi2ExitInitializationMode(c) == fmi2OK &&
                 fmi2SetReal(c, &references[0], 1, &torque) == fmi2OK &&
                 fmi2GetReal(c, &references[1], 1, &compression[0]) == fmi2OK;
