@@ -48,6 +48,7 @@ CHANGED = {
     "compression_start": 0.005,
     "F_pull_max": 0.0,
     "mu": 0.3,
+    "sigma": 0.5,
     "CdA_c": 0.7,
     "CdA_t": 1.0,
     "C_rr": 0.01,

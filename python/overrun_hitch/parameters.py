@@ -117,6 +117,7 @@ class Parameters(Quantities):
     travel: float = quantity(1e3, "m", "drawbar compression at which it meets the buffer", ge=0.0)
     k_buffer: float = quantity(548e3, "N/m", "drawbar stiffness from there on", ge=0.0)
     mu: float = quantity(1e9, "1", "friction between tyres and road", ge=0.01)
+    sigma: float = quantity(0.0, "m", "relaxation length of the tyres", ge=0.0)
     CdA_c: float = quantity(0.0, "m2", "drag area of the car", ge=0.0)
     CdA_t: float = quantity(0.0, "m2", "drag area of the trailer", ge=0.0)
     C_rr: float = quantity(0.0, "1", "rolling resistance over load", ge=0.0)

@@ -17,7 +17,7 @@ from fmu_build.pipeline import build
 
 PARAMETERS = (
     "M_c M_t I_c I_t R_c R_t C_kc C_kt k k_t C r eps F_pull_max rebound F_0 x_2 k_2 x_3 k_3 travel k_buffer mu "
-    "CdA_c CdA_t C_rr reverse_braking V_0 compression_start"
+    "sigma CdA_c CdA_t C_rr reverse_braking V_0 compression_start"
 ).split()
 OUTPUTS = "v_car v_trailer a_car a_trailer compression F_hitch slip_car slip_trailer trailer_brake_torque".split()
 

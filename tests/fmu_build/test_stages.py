@@ -141,7 +141,7 @@ def test_relations_of_equal_residual_are_one(modelica_library: Path) -> None:
         "compression > s_4",
         "compression > eps",
         "compression < 0",
-        "asymmetry*v_rel < 0",
+        "sense*v_rel < 0",
         "F_free > F_pull_max",
         "F_free < -F_pull_max",
     ]

@@ -29,7 +29,7 @@ protected
   parameter Units.Force F_2 = F_0 + k*(s_2 - s_1) "Force at s_2";
   parameter Units.Force F_3 = F_2 + k_2*(s_3 - s_2) "Force at s_3";
   parameter Units.Force F_4 = F_3 + k_3*(s_4 - s_3) "Force at s_4";
-  parameter Real asymmetry(final unit="1") = noEvent(abs(rebound - 1)) "0: a damper with one coefficient";
+  parameter Units.Slowness sense = noEvent(if abs(rebound - 1) > 0 then 0.01 else 0) "0: a damper with one coefficient; else so small that less than 1e-10 m/s, which is rounding, has no direction";
   parameter Units.Damping C_rebound = rebound*C "Damper coefficient while the drawbar springs back";
 equation
   compression = rear.s - front.s;
@@ -37,7 +37,7 @@ equation
   F_spring = if compression > s_1 then (if compression > s_2 then (if compression > s_3 then (if compression > s_4
     then F_4 + k_buffer*(compression - s_4) else F_3 + k_3*(compression - s_3)) else F_2 + k_2*(compression - s_2))
     else F_0 + k*(compression - s_1)) elseif compression > eps then k_t*(compression - eps) elseif compression < 0 then k_t*compression else 0;
-  F_damper = if asymmetry*v_rel < 0 then C_rebound*v_rel else C*v_rel "No event where both are the same";
+  F_damper = if sense*v_rel < 0 then C_rebound*v_rel else C*v_rel "No event where both are the same";
   F_free = -F_damper - F_spring "Paper's equation 5, in its three regimes of section 6";
   F_h = if compression >= 0 and F_free > F_pull_max then F_pull_max elseif compression <= eps and F_free < -F_pull_max then -F_pull_max else F_free "Pull limited unless the stop is reached, push unless the spring is";
   front.f = F_h;

@@ -5,9 +5,10 @@ model Tyre "Tyre whose force follows from longitudinal slip, limited by friction
   parameter Units.Mass M = 1000 "Mass that loads the tyre";
   parameter Units.Friction mu = 1e9 "Friction between tyre and road: largest force over load";
   parameter Units.RollingResistance C_rr = 0 "Rolling resistance over load";
-  parameter Units.Length sigma = 0.3 "Relaxation length: C_k over the stiffness of the tyre at rest";
+  parameter Units.Length sigma(min=0) = 0 "Relaxation length, over which the force follows the slip; 0: at once";
   parameter Units.Velocity v_low = 0.5 "Below this speed the tyre's deflection counts instead of its slip";
   parameter Real zeta(final unit="1") = 0.5 "Damping ratio of the mass on the tyre that stands";
+  constant Units.Length l_0 = 0.3 "C_k over the stiffness of the tyre at rest, where sigma does not tell it";
   constant Real C_x(final unit="1") = 1.685 "Shape factor of the magic formula: p_Cx1 of Pacejka's 205/60R15";
   constant Real E_x(final unit="1") = 0.344 "Curvature factor of the magic formula: p_Ex1 of Pacejka's 205/60R15";
   constant Real X_peak(final unit="1") = 1.5329258834444335 "Argument at the peak: C_x*atan(X - E_x*(X - atan(X))) = pi/2";
@@ -28,7 +29,9 @@ model Tyre "Tyre whose force follows from longitudinal slip, limited by friction
   Real X(final unit="1") "Argument of the magic formula";
   Units.Force F "Tyre force, positive retarding";
 protected
-  parameter Units.Slowness d = 2*zeta*sqrt(M/(C_k*sigma)) "Slip per slip speed that gives the damping zeta";
+  parameter Units.Length l = noEvent(if sigma > 0 then sigma else l_0) "C_k over the stiffness of the tyre at rest";
+  parameter Real lag(final unit="1") = noEvent(if sigma > 0 then 1 else 0) "Share of the slip that follows with a lag";
+  parameter Units.Slowness d = 2*zeta*sqrt(M/(C_k*l)) "Slip per slip speed that gives the damping zeta";
 equation
   v = der(axle.s);
   v_abs = noEvent(abs(v));
@@ -36,10 +39,10 @@ equation
   y = noEvent(if v_abs < v_low then v_abs/v_low else 1);
   w = 1 - y^3*(4 - 3*y);
   p = noEvent(if v_abs < v_low then y^2*(4 - 3*y)/v_low else 1/v_abs) "(1 - w)/v_abs";
-  slip = p*v_slip + w*(u/sigma + d*v_slip) "Paper's equations 7 and 8, from v_low on";
+  slip = (1 - lag)*p*v_slip + (w + lag*(1 - w))*u/l + w*d*v_slip "Without lag the paper's equations 7 and 8, from v_low on";
   F_max = mu*M*g_z;
-  v_fade = noEvent(if v_abs < v_low then v_abs*y*(2 - y) else v_abs) + noEvent(abs(v_slip))*C_k/(X_peak*C_x*F_max);
-  der(u) = v_slip - v_fade*u/sigma;
+  v_fade = noEvent(if v_abs < v_low then v_abs*y*(2 - y) else v_abs) + w*noEvent(abs(v_slip))*C_k/(X_peak*C_x*F_max);
+  der(u) = v_slip - v_fade*u/l;
   X = C_k*slip/(C_x*F_max);
   F = F_max*sin(C_x*atan(X - E_x*(X - atan(X)))) "C_k*slip, where it is small against F_max";
   rolling_torque = C_rr*M*g_z*R;
@@ -58,9 +61,11 @@ equation
 equations 7 and 8, good for slips up to about 0.1). Friction limits it to <code>mu</code> times the load; beyond that peak it
 falls as H. B. Pacejka's magic formula tells, whose slope at zero slip is <code>C_k</code>. With the default
 <code>mu</code> the limit is out of reach and the force that of the paper.</p>
-<p>At rest there is no slip to speak of: a tyre that stands is a spring of the stiffness <code>C_k/sigma</code>, which holds a
+<p>With a relaxation length <code>sigma</code> the force follows the slip over that distance, as that of a tyre does whose
+deflection has to build up; the paper has none (<code>sigma = 0</code>).</p>
+<p>At rest there is no slip to speak of: a tyre that stands is a spring of the stiffness <code>C_k/l</code>, which holds a
 vehicle on a slope without creeping. Its deflection <code>u</code> is that of a tyre with the relaxation length
-<code>sigma</code>; it fades over that distance when the tyre rolls, not when it stands, and sliding limits it to where the
+<code>l</code> (<code>sigma</code>, or 0.3 m if that is 0); it fades over that distance when the tyre rolls, not when it stands, and sliding limits it to where the
 force has its peak. From <code>v_low</code> down it takes over; above, it takes no part. The damping of the tyre that stands
 is artificial, as in Pacejka's own model for low speeds, and disappears at <code>v_low</code> too.</p>
 <p>Rejected: a slip over a speed that is kept from zero. It is regular as well, but it creeps on a slope.</p>
