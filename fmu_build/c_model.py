@@ -94,6 +94,7 @@ def _model(model: SortedModel, jacobian: JacobianModel, printer: Printer) -> str
 #include <math.h>
 
 #include "elementary.h"
+#include "event_time.h"
 #include "loops.h"
 
 const VariableInfo variable_info[N_VARIABLES] = {{

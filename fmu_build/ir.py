@@ -71,6 +71,28 @@ class round_down(sympy.Function):  # type: ignore[misc]
         return sympy.Integer(0)
 
 
+class reach_time(sympy.Function):  # type: ignore[misc]
+    """The time at which ``rest + slope*time`` reaches ``value``: arguments (value, rest, slope).
+
+    It is a function, and not the quotient, because SymPy would write that differently for different values, and so
+    round one and the same time differently.
+    """
+
+    nargs = 3
+    is_real = True
+
+
+class time_left(sympy.Function):  # type: ignore[misc]
+    """From now to an event: arguments (its time, now). Their difference, zero where that is rounding."""
+
+    nargs = 2
+    is_real = True
+
+    def fdiff(self, argindex: int = 1) -> sympy.Expr:
+        """1 or -1"""
+        return sympy.Integer(1 if argindex == 1 else -1)
+
+
 @dataclass(frozen=True)
 class EnumerationType:
     """An enumeration: its literals in order; the first is number 1."""

@@ -10,6 +10,7 @@ import sympy
 
 from .errors import BuildError
 from .ir import (
+    TIME,
     Assignment,
     Block,
     EquationSystem,
@@ -22,6 +23,7 @@ from .ir import (
     Variable,
     pre,
     symbol,
+    time_left,
     truth,
 )
 from .slices import reaching
@@ -102,7 +104,7 @@ def _for_checks(system: EquationSystem, continuous: Sequence[Block], tests: list
 
 def _residuals(relations: Sequence[Relation], times: list[str]) -> list[sympy.Expr]:
     names = iter(times)
-    return [r.residual if r.until is None else symbol(next(names)) - symbol("time") for r in relations]
+    return [r.residual if r.until is None else time_left(symbol(next(names)), symbol(TIME)) for r in relations]
 
 
 def _memories(system: EquationSystem, own: Sequence[Assignment], continuous: Sequence[Block]) -> tuple[Memory, ...]:
