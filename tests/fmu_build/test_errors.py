@@ -92,6 +92,16 @@ def test_without_a_compiler(modelica_library: Path, tmp_path: Path) -> None:
     assert "no C compiler" in result.stderr and list(tmp_path.iterdir()) == []
 
 
+def test_stages_and_their_times_on_request(modelica_file: Writer, tmp_path: Path) -> None:
+    source = modelica_file("model M\n  Real x(start=1, fixed=true);\nequation\n  der(x) = -x;\nend M;")
+    result = run_command(str(source), "M", "-o", str(tmp_path / "M.fmu"), "--verbose")
+    lines = result.stderr.splitlines()
+    seconds = [float(line.split()[-2]) for line in lines]
+    assert result.returncode == 0 and all(line.startswith("fmu_build: ") and line.endswith(" s") for line in lines)
+    assert [line.split()[1] for line in lines[:1] + lines[-1:]] == ["reading", "in"]
+    assert sum(seconds[:-1]) == pytest.approx(seconds[-1], abs=0.1)
+
+
 def test_an_output_that_cannot_be_written(modelica_file: Writer, tmp_path: Path) -> None:
     source = modelica_file("model M\n  Real x(start=1, fixed=true);\nequation\n  der(x) = -x;\nend M;")
     (tmp_path / "file").write_text("")
