@@ -46,8 +46,10 @@ def _progress(*, shown: bool, verbose: bool) -> Iterator[Callable[[str], object]
     elif shown and console.is_terminal:
         with console.status("") as status:
             yield lambda stage: status.update(f"{stage} (the first time for a system takes minutes)")
+    elif shown:
+        yield lambda stage: _say(stage) if stage.startswith("compiling") else None
     else:
-        yield lambda stage: shown and stage.startswith("compiling") and _say(stage)
+        yield lambda _: None
 
 
 @contextmanager

@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterable, Sequence
 
 import sympy
 
-from .ir import Assignment, Loop, LoopGradient, LoopPartials, SortedModel
+from .ir import LoopGradient, LoopPartials, SortedModel
+from .ir_equations import Assignment, Loop
 from .loops import rest
 
 Text = Callable[[sympy.Expr], str]

@@ -12,7 +12,6 @@ from .c_loops import adjoint_lines, declare_loops, gradient_lines, name_of, numb
 from .c_text import Printer, assignment_lines, function, identifiers, local_name, string
 from .ir import (
     DEFAULT_TOLERANCE,
-    TIME,
     TOKEN_PLACEHOLDER,
     Coupling,
     CSources,
@@ -21,10 +20,10 @@ from .ir import (
     LoopPartials,
     Partials,
     SortedModel,
-    Variable,
-    relation_name,
 )
+from .ir_equations import Variable
 from .slices import needed_for, start_value, steady, tunable_parameters
+from .symbols import TIME, relation_name
 
 
 def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str, coupling: Coupling | None = None) -> CSources:

@@ -10,7 +10,8 @@ import sympy
 from sympy.printing.c import C11CodePrinter
 
 from .c_loops import name_of
-from .ir import Block, Loop, reach_time, round_down, time_left
+from .ir_equations import Block, Loop
+from .symbols import reach_time, round_down, time_left
 
 C_KEYWORDS = frozenset(C11CodePrinter.reserved_words) | {"inline", "restrict", "bool", "true", "false", "at"}
 

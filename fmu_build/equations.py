@@ -15,21 +15,11 @@ import sympy
 
 from .errors import BuildError
 from .index_reduction import reduce_index
-from .ir import (
-    TIME,
-    Assignment,
-    DiscreteEquations,
-    Equation,
-    EquationSystem,
-    FlatModel,
-    Relation,
-    Variable,
-    der,
-    holds,
-    pre,
-    symbol,
-)
+from .ir import EquationSystem, FlatModel
+from .ir_equations import Assignment, Equation, Relation, Variable
+from .ir_events import DiscreteEquations
 from .substitution import substitute
+from .symbols import TIME, der, holds, pre, symbol
 
 Names = dict[str, str]
 

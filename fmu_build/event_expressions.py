@@ -15,24 +15,11 @@ import sympy
 from sympy.logic.boolalg import Boolean
 
 from .errors import BuildError
-from .expressions import RELATIONS, ExpressionReader, Sources
-from .ir import (
-    INITIAL,
-    TERMINAL,
-    TIME,
-    Assignment,
-    EnumerationType,
-    Message,
-    Relation,
-    Sample,
-    holds,
-    is_true,
-    pre,
-    reach_time,
-    round_down,
-    symbol,
-    truth,
-)
+from .expressions import RELATIONS, ExpressionReader
+from .ir_equations import Assignment, EnumerationType, Relation
+from .ir_events import Message, Sample
+from .sources import Sources
+from .symbols import INITIAL, TERMINAL, TIME, holds, is_true, pre, reach_time, round_down, symbol, truth
 from .values import Value, each
 
 COMPARISONS = {"Lt": sympy.Lt, "Le": sympy.Le, "Gt": sympy.Gt, "Ge": sympy.Ge}

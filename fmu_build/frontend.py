@@ -33,8 +33,12 @@ from .clauses import assigned_names, read_algorithms, read_checks, read_whens
 from .components import element_names, spread
 from .errors import BuildError
 from .event_expressions import Declared, EventReader, enumeration_types
-from .expressions import Sources, unwrap
-from .ir import Alternatives, Assignment, EnumerationType, Equation, FlatModel, Simulation, Variable, symbol
+from .expressions import unwrap
+from .ir import FlatModel, Simulation
+from .ir_equations import Assignment, EnumerationType, Equation, Variable
+from .ir_events import Alternatives
+from .sources import Sources
+from .symbols import symbol
 from .values import Value, elements
 
 Node = dict[str, Any]

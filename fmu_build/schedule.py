@@ -9,24 +9,11 @@ import networkx as nx
 import sympy
 
 from .errors import BuildError
-from .ir import (
-    TIME,
-    Assignment,
-    Block,
-    EquationSystem,
-    Memory,
-    Relation,
-    Schedule,
-    ScheduledCheck,
-    ScheduledReinit,
-    ScheduledSample,
-    Variable,
-    pre,
-    symbol,
-    time_left,
-    truth,
-)
+from .ir import EquationSystem
+from .ir_equations import Assignment, Block, Relation, Variable
+from .ir_events import Memory, Schedule, ScheduledCheck, ScheduledReinit, ScheduledSample
 from .slices import reaching
+from .symbols import TIME, pre, symbol, time_left, truth
 
 
 @dataclass(frozen=True)
