@@ -8,7 +8,7 @@ from dataclasses import fields
 import sympy
 
 from .c_events import event_sizes, print_events
-from .c_loops import adjoint_lines, declare_loops, gradient_lines, name_of, numbered, tangent_lines
+from .c_loops import adjoint_lines, check_stack, declare_loops, gradient_lines, name_of, numbered, tangent_lines
 from .c_text import Printer, assignment_lines, function, identifiers, local_name, string
 from .ir import (
     DEFAULT_TOLERANCE,
@@ -28,6 +28,7 @@ from .symbols import TIME, relation_name
 
 def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str, coupling: Coupling | None = None) -> CSources:
     """variables.h and model.c of ``model``, with the all-zero placeholder where the content hash will stand."""
+    check_stack(model, jacobian)
     names = identifiers(model.value_references)
     header = _header(model, identifier, names, n_couplings=0 if coupling is None else 1)
     printer = Printer(names, steady(model), numbered(model))

@@ -52,6 +52,12 @@ BROKEN = {
         "String(scalar)",
     ),
     "text": ('model M\n  String s = "a";\n  Real x = time;\nend M;', "M.mo:2", "String"),
+    "loop too large": (
+        "model M\n  Real x(start=1, fixed=true);\n  Real u[240];\nequation\n  der(x) = -u[9];\n  u[1] = x + u[2];\n"
+        "  for i in 2:239 loop\n    u[i - 1] - 3*u[i] + u[i + 1] = 0;\n  end for;\n  u[240] = u[239]/2;\nend M;",
+        "M.mo:",
+        "take 470 KB",  # 8*240*(240 + 4), and a column of 8*240,
+    ),
     "index": (
         "model M\n  Real x(start=0, fixed=true);\n  Real y(start=0, fixed=true);\n"
         "equation\n  der(x) + der(y) = 1;\n  x = 2*y;\nend M;",
