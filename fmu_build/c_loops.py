@@ -29,7 +29,7 @@ def check_stack(model: SortedModel, jacobian: JacobianModel) -> None:
         largest = max(loops, key=lambda loop: len(loop.unknowns))
         raise BuildError(
             f"{largest.residuals[0].origin}: {len(largest.unknowns)} equations determine {largest.unknowns[0]} and"
-            f" others together: the loops of a model may take {8e-3 * MOST_DOUBLES:.0f} KB of stack, about 200 unknowns,"
+            f" others together: the loops of a model may take {8e-3 * MOST_DOUBLES:.0f} KB of stack, some 200 unknowns,"
             f" and here they take {8e-3 * room:.0f} KB; make some of the unknowns states"
         )
 

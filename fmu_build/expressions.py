@@ -21,6 +21,7 @@ from .symbols import der, holds, symbol
 from .values import ONE, ZERO, Value, array, combine, concatenate, each, field, full
 
 RELATIONS = {"Lt": "<", "Le": "<=", "Gt": ">", "Ge": ">="}
+INSTEAD = {"Delay": "; write a chain of lags, or sample the value"}
 LARGE = 40  # nodes of an expression that gets a variable of its own where it can, see ExpressionReader.share
 
 
@@ -351,7 +352,8 @@ class ExpressionReader:
         tag, body = next(iter(node.items()))
         what = body.get("op") or body.get("function") or tag
         text = self.sources.text(body["span"]) if "span" in body else ""
-        return BuildError(f"{self.sources.find_place(node)}: {unwrap(what)} in {text!r}: not supported")
+        hint = INSTEAD.get(unwrap(what), "")
+        return BuildError(f"{self.sources.find_place(node)}: {unwrap(what)} in {text!r}: not supported{hint}")
 
 
 _READERS: Mapping[str, Callable[[ExpressionReader, Mapping[str, Any]], Value]] = {

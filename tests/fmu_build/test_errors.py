@@ -34,6 +34,24 @@ BROKEN = {
         "more than one",
     ),
     "delay": ("model M\n  Real y = delay(time, 0.1);\nend M;", "M.mo:2", "Delay"),
+    "derivative of an input": ("model M\n  input Real u;\n  Real v=der(x), x=u;\nend M;", "M.mo:3", "input u"),
+    "constraint": (
+        "model M\n  Real x(start=1), y(start=0), u, v, L;\nequation\n  der(x) = u;\n  der(y) = v;\n  der(u) = -L*x;\n"
+        "  der(v) = -L*y - 9.81;\n  x^2 + y^2 = 1;\nend M;",
+        "M.mo:8",
+        "constraint is not linear in any of the states",
+    ),
+    "external function": (
+        'model M\n  function f\n    input Real u;\n    output Real y;\n    external "C" y = g(u);\n  end f;\n'
+        "  Real x = f(time);\nend M;",
+        "M.mo:",
+        "write its algorithm in Modelica",
+    ),
+    "subscript that changes": (
+        "model M\n  parameter Real a[2] = {1, 2};\n  Integer i = integer(time) + 1;\n  Real x = a[i];\nend M;",
+        "M.mo:4",
+        "changes in time",
+    ),
     "edge of an expression": (
         "model M\n  Boolean b;\n  Integer n(start=0);\nequation\n  b = time>1;\n  when edge(not b) then\n    n=1;\n"
         "  end when;\nend M;",
