@@ -316,7 +316,7 @@ def _variables(node: Node, flat: Node, reader: EventReader, kinds: dict[str, Enu
         numbers("nominal"),
         strict=True,
     )
-    return [
+    variables = [
         Variable(
             name=element,
             description=node["description"] or "",
@@ -340,6 +340,14 @@ def _variables(node: Node, flat: Node, reader: EventReader, kinds: dict[str, Enu
         )
         for element, start, is_fixed, binding, lowest, highest, nominal in attributes
     ]
+    return [_with_value(v) if v.causality == "input" and v.binding is not None else v for v in variables]
+
+
+def _with_value(variable: Variable) -> Variable:
+    """An input that is declared with a number starts from it; one with another expression is none of the unit's."""
+    if variable.binding is not None and variable.binding.is_number:
+        return replace(variable, start=variable.binding, binding=None)
+    return replace(variable, causality="local")
 
 
 def _guess(start: sympy.Expr | None, reader: EventReader) -> float:
