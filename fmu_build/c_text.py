@@ -36,7 +36,7 @@ class Printer(C11CodePrinter):  # type: ignore[misc]
     """
 
     def __init__(self, names: dict[str, str], steady: frozenset[str], loops: dict[str, Loop]) -> None:
-        super().__init__()
+        super().__init__({"math_macros": {}})  # C11 has no M_PI
         self.names = names
         self.steady = steady
         self.loops = loops
@@ -70,6 +70,9 @@ class Printer(C11CodePrinter):  # type: ignore[misc]
             product = "*".join([factor] * abs(int(exponent)))
             return f"({product})" if exponent > 0 else f"1.0/({product})"
         return str(super()._print_Pow(expr))
+
+    def _print_NumberSymbol(self, expr: sympy.NumberSymbol) -> str:
+        return repr(float(expr))
 
     def _print_reach_time(self, expr: reach_time) -> str:
         value, rest, slope = (self._print(argument) for argument in expr.args)

@@ -304,6 +304,18 @@ end M;""",
         2.0,
         lambda t: {"y": 2 * t + 1.5 * t**2, "a.x": np.exp(-t)},
     ),
+    "numbers that SymPy knows by name": Case(
+        """
+model M
+  constant Real pi = 2*asin(1);
+  constant Real e = exp(1);
+  Real x(start=sqrt(2), fixed=true);
+equation
+  der(x) = pi*x/sqrt(2) + e/sqrt(3) + log(2) + log(10);
+end M;""",
+        1.0,
+        solution("x", lambda t, y: [np.pi * y[0] / 2**0.5 + np.e / 3**0.5 + np.log(20)], [2**0.5]),
+    ),
     "rounding": Case(
         """
 model M
