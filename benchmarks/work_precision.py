@@ -7,6 +7,7 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from benchmarks.comparison import ALLOWED, in_turns
@@ -53,14 +54,19 @@ def drawn(curves: dict[str, Curve]) -> Figure:
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.6, 4.8), layout="constrained")
         axes = figure.subplots()
-        for name, (times, errors) in curves.items():
-            family, second = STYLES[name]
-            style = {**FAMILIES[family], "linestyle": (0, (4, 2)) if second else "-"}
-            face = "white" if second else style["color"]
-            axes.loglog(1e3 * times, errors, label=name, linewidth=1.1, markersize=4.5, markerfacecolor=face, **style)
+        draw_curves(axes, curves)
         compared = {"color": "#777777", "linestyle": (0, (1, 1.5)), "linewidth": 1.1, "zorder": 1.5}
         axes.axhline(ALLOWED, label="compared in the table", **compared)
-        axes.set_xlabel("CPU time (ms)")
         axes.set_ylabel("Error of the compression (m)")
         figure.legend(loc="outside right center")
     return figure
+
+
+def draw_curves(axes: Axes, curves: dict[str, Curve]) -> None:
+    """A line for each contender, which STYLES names."""
+    for name, (times, errors) in curves.items():
+        family, second = STYLES[name]
+        style = {**FAMILIES[family], "linestyle": (0, (4, 2)) if second else "-"}
+        face = "white" if second else style["color"]
+        axes.loglog(1e3 * times, errors, label=name, linewidth=1.1, markersize=4.5, markerfacecolor=face, **style)
+    axes.set_xlabel("CPU time (ms)")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -22,29 +23,60 @@ def build_fmu(
     platforms: Annotated[
         str, typer.Option(help="host, all, or names with commas between them.", metavar="host|all|NAME,NAME")
     ] = "host",
+    verbose: Annotated[bool, typer.Option("--verbose", help="Show each stage and its time.")] = False,
 ) -> None:
     """Build an FMU from Modelica, for this machine or for others."""
     from .pipeline import build  # here, because sympy would slow down --help and wrong options
 
     names = [name.strip() for name in platforms.split(",") if name.strip()]
-    with _progress(shown=names != ["host"]) as progress:
+    with _progress(shown=names != ["host"], verbose=verbose) as progress:
         build(modelica, class_name, output, fmi, names, progress)
     typer.echo(output)
 
 
 @contextmanager
-def _progress(*, shown: bool) -> Iterator[Callable[[str], object]]:
-    """What to call with each thing that takes time: a line that changes in a terminal, lines elsewhere."""
+def _progress(*, shown: bool, verbose: bool) -> Iterator[Callable[[str], object]]:
+    """What to call with each stage: lines with times if asked for, else a line that changes, in a terminal alone."""
     from rich.console import Console
 
     console = Console(stderr=True, highlight=False)
-    if not shown:
-        yield lambda _: None
-    elif not console.is_terminal:
-        yield lambda text: print(f"fmu_build: {text}", file=sys.stderr, flush=True)
+    if verbose:
+        with _timed() as begin:
+            yield begin
+    elif shown and console.is_terminal:
+        with console.status("") as status:
+            yield lambda stage: status.update(f"{stage} (the first time for a system takes minutes)")
+    elif shown:
+        yield lambda stage: _say(stage) if stage.startswith("compiling") else None
     else:
-        with console.status("reading Modelica") as status:
-            yield lambda text: status.update(f"{text} (minutes, the first time)")
+        yield lambda _: None
+
+
+@contextmanager
+def _timed() -> Iterator[Callable[[str], object]]:
+    """What to call with each stage; its line gets its time when it ends."""
+    start = begun = time.perf_counter()
+    stage = ""
+
+    def end() -> None:
+        if stage:
+            print(f"{time.perf_counter() - begun:8.2f} s", file=sys.stderr, flush=True)
+
+    def begin(name: str) -> None:
+        nonlocal begun, stage
+        end()
+        begun, stage = time.perf_counter(), name
+        print(f"fmu_build: {name:<30}", end="", file=sys.stderr, flush=True)
+
+    try:
+        yield begin
+    finally:
+        end()
+    _say(f"{'in all':<30}{time.perf_counter() - start:8.2f} s")
+
+
+def _say(text: str) -> None:
+    print(f"fmu_build: {text}", file=sys.stderr, flush=True)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

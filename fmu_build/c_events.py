@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from .c_text import Printer, assignment_lines, function, string
-from .ir import INITIAL, TERMINAL, Message, SortedModel
+from .ir import SortedModel
+from .ir_events import Message
+from .symbols import INITIAL, TERMINAL
 
 
 def event_sizes(model: SortedModel) -> str:

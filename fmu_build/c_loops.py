@@ -6,11 +6,32 @@ from collections.abc import Callable, Iterable, Sequence
 
 import sympy
 
-from .ir import Assignment, Loop, LoopGradient, LoopPartials, SortedModel
+from .errors import BuildError
+from .ir import JacobianModel, LoopGradient, LoopPartials, SortedModel
+from .ir_equations import Assignment, Loop
 from .loops import rest
+
+MOST_DOUBLES = 48_000  # on the stack, 384 KB: a thread may have no more than 512 KB (macOS)
 
 Text = Callable[[sympy.Expr], str]
 Lines = Callable[[Iterable[Assignment]], list[str]]
+
+
+def check_stack(model: SortedModel, jacobian: JacobianModel) -> None:
+    """BuildError where the work space of the loops would not fit on the stack.
+
+    It is largest in model_jacobian, which keeps the factors of every loop and a column for each seed.
+    """
+    loops = list(numbered(model).values())
+    columns = sum(len(gradient.right) for gradient in jacobian.assignments if isinstance(gradient, LoopGradient))
+    room = sum(len(loop.unknowns) * (len(loop.unknowns) + 4) for loop in loops) + columns
+    if room > MOST_DOUBLES:
+        largest = max(loops, key=lambda loop: len(loop.unknowns))
+        raise BuildError(
+            f"{largest.residuals[0].origin}: {len(largest.unknowns)} equations determine {largest.unknowns[0]} and"
+            f" others together: the loops of a model may take {8e-3 * MOST_DOUBLES:.0f} KB of stack, some 200 unknowns,"
+            f" and here they take {8e-3 * room:.0f} KB; make some of the unknowns states"
+        )
 
 
 def declare_loops(model: SortedModel, text: Text, lines: Lines) -> str:

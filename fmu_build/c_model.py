@@ -8,11 +8,10 @@ from dataclasses import fields
 import sympy
 
 from .c_events import event_sizes, print_events
-from .c_loops import adjoint_lines, declare_loops, gradient_lines, name_of, numbered, tangent_lines
+from .c_loops import adjoint_lines, check_stack, declare_loops, gradient_lines, name_of, numbered, tangent_lines
 from .c_text import Printer, assignment_lines, function, identifiers, local_name, string
 from .ir import (
     DEFAULT_TOLERANCE,
-    TIME,
     TOKEN_PLACEHOLDER,
     Coupling,
     CSources,
@@ -21,14 +20,15 @@ from .ir import (
     LoopPartials,
     Partials,
     SortedModel,
-    Variable,
-    relation_name,
 )
+from .ir_equations import Variable
 from .slices import needed_for, start_value, steady, tunable_parameters
+from .symbols import TIME, relation_name
 
 
 def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str, coupling: Coupling | None = None) -> CSources:
     """variables.h and model.c of ``model``, with the all-zero placeholder where the content hash will stand."""
+    check_stack(model, jacobian)
     names = identifiers(model.value_references)
     header = _header(model, identifier, names, n_couplings=0 if coupling is None else 1)
     printer = Printer(names, steady(model), numbered(model))
@@ -94,6 +94,7 @@ def _model(model: SortedModel, jacobian: JacobianModel, printer: Printer) -> str
 #include <math.h>
 
 #include "elementary.h"
+#include "event_time.h"
 #include "loops.h"
 
 const VariableInfo variable_info[N_VARIABLES] = {{

@@ -10,7 +10,8 @@ import sympy
 from sympy.printing.c import C11CodePrinter
 
 from .c_loops import name_of
-from .ir import Block, Loop, round_down
+from .ir_equations import Block, Loop
+from .symbols import reach_time, round_down, time_left
 
 C_KEYWORDS = frozenset(C11CodePrinter.reserved_words) | {"inline", "restrict", "bool", "true", "false", "at"}
 
@@ -35,7 +36,7 @@ class Printer(C11CodePrinter):  # type: ignore[misc]
     """
 
     def __init__(self, names: dict[str, str], steady: frozenset[str], loops: dict[str, Loop]) -> None:
-        super().__init__()
+        super().__init__({"math_macros": {}})  # C11 has no M_PI
         self.names = names
         self.steady = steady
         self.loops = loops
@@ -69,6 +70,17 @@ class Printer(C11CodePrinter):  # type: ignore[misc]
             product = "*".join([factor] * abs(int(exponent)))
             return f"({product})" if exponent > 0 else f"1.0/({product})"
         return str(super()._print_Pow(expr))
+
+    def _print_NumberSymbol(self, expr: sympy.NumberSymbol) -> str:
+        return repr(float(expr))
+
+    def _print_reach_time(self, expr: reach_time) -> str:
+        value, rest, slope = (self._print(argument) for argument in expr.args)
+        return f"((({value}) - ({rest}))/({slope}))"
+
+    def _print_time_left(self, expr: time_left) -> str:
+        until, time = (self._print(argument) for argument in expr.args)
+        return f"time_left({until}, {time})"
 
     def _print_round_down(self, expr: round_down) -> str:
         return f"floor({self._print(expr.args[0])})"

@@ -10,7 +10,8 @@ import sympy
 from .errors import BuildError
 from .event_expressions import EventReader
 from .expressions import unwrap
-from .ir import Algorithm, Assignment, Check, Choice, Reinit, Statement, When, WhenBranch
+from .ir_equations import Assignment
+from .ir_events import Algorithm, Check, Choice, Reinit, Statement, When, WhenBranch
 
 Node = Mapping[str, Any]
 KEYS = {"condition": ("condition", "cond"), "statements": ("equations", "stmts")}  # of equations, of algorithms

@@ -11,7 +11,7 @@ from typing import Any
 
 import sympy
 
-from .ir import symbol
+from .symbols import symbol
 from .values import Value, array, elements, full
 
 Read = Callable[[Mapping[str, Any]], Value]

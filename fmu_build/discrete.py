@@ -17,26 +17,10 @@ import networkx as nx
 import sympy
 
 from .errors import BuildError
-from .ir import (
-    INITIAL,
-    Algorithm,
-    Alternatives,
-    Assignment,
-    Check,
-    Choice,
-    DiscreteEquations,
-    Equation,
-    FlatModel,
-    Reinit,
-    Relation,
-    Statement,
-    Variable,
-    When,
-    is_true,
-    pre,
-    symbol,
-    truth,
-)
+from .ir import FlatModel
+from .ir_equations import Assignment, Equation, Relation, Variable
+from .ir_events import Algorithm, Alternatives, Check, Choice, DiscreteEquations, Reinit, Statement, When
+from .symbols import INITIAL, is_true, pre, symbol, truth
 
 Values = dict[str, sympy.Expr]
 

@@ -15,21 +15,11 @@ import sympy
 
 from .errors import BuildError
 from .index_reduction import reduce_index
-from .ir import (
-    TIME,
-    Assignment,
-    DiscreteEquations,
-    Equation,
-    EquationSystem,
-    FlatModel,
-    Relation,
-    Variable,
-    der,
-    holds,
-    pre,
-    symbol,
-)
+from .ir import EquationSystem, FlatModel
+from .ir_equations import Assignment, Equation, Relation, Variable
+from .ir_events import DiscreteEquations
 from .substitution import substitute
+from .symbols import TIME, der, holds, pre, symbol
 
 Names = dict[str, str]
 
@@ -56,6 +46,7 @@ def derive(model: FlatModel) -> EquationSystem:
         for v in model.variables
         if v.variability == "continuous" and v.name not in aliases and v.causality != "input"
     ]
+    _refuse_input_derivatives(reduced, inputs)
     before = _symbols(reduced)
     given = [
         Equation(symbol(n) - start, variables[n].origin)
@@ -100,6 +91,16 @@ def _events(events: DiscreteEquations, states: tuple[str, ...], aliases: Names) 
             )
     before = {symbol(pre(state)): symbol(state) for state in states}
     return substitute(replace(events, reinits=tuple(reinits)), before)
+
+
+def _refuse_input_derivatives(equations: Iterable[Equation], inputs: Iterable[str]) -> None:
+    rates = {symbol(der(name)): name for name in inputs}
+    for equation in equations:
+        for s in equation.residual.free_symbols & rates.keys():
+            raise BuildError(
+                f"{equation.origin}: this needs the time derivative of the input {rates[s]}: not supported; make the"
+                " derivative an input of its own, or put a filter behind the input"
+            )
 
 
 def _symbols(equations: Iterable[Equation]) -> set[sympy.Symbol]:
@@ -210,7 +211,10 @@ def _choose_states(
         candidates = sorted(occurring, key=lambda n: (variables[n].state_select, n in fixed, -algebraics.index(n)))
         demoted = next((n for n in candidates if not equation.residual.diff(symbol(n)).has(symbol(n))), None)
         if demoted is None:
-            raise BuildError(f"{equation.origin}: not linear in any of the states {', '.join(candidates)} that it ties")
+            raise BuildError(
+                f"{equation.origin}: this constraint is not linear in any of the states {', '.join(candidates)} that it"
+                " ties: index reduction is not supported; take coordinates that need no constraint"
+            )
         if demoted in fixed:
             free = next((n for n in reversed(candidates) if n not in fixed), None)
             starts[_required(free, equation, candidates)] = _start_from_others(equation, str(free), starts)

@@ -15,23 +15,11 @@ import sympy
 from sympy.logic.boolalg import Boolean
 
 from .errors import BuildError
-from .expressions import RELATIONS, ExpressionReader, Sources
-from .ir import (
-    INITIAL,
-    TERMINAL,
-    TIME,
-    Assignment,
-    EnumerationType,
-    Message,
-    Relation,
-    Sample,
-    holds,
-    is_true,
-    pre,
-    round_down,
-    symbol,
-    truth,
-)
+from .expressions import RELATIONS, ExpressionReader
+from .ir_equations import Assignment, EnumerationType, Relation
+from .ir_events import Message, Sample
+from .sources import Sources
+from .symbols import INITIAL, TERMINAL, TIME, holds, is_true, pre, reach_time, round_down, symbol, truth
 from .values import Value, each
 
 COMPARISONS = {"Lt": sympy.Lt, "Le": sympy.Le, "Gt": sympy.Gt, "Ge": sympy.Ge}
@@ -211,23 +199,24 @@ class EventReader(ExpressionReader):
         symbols = {s.name for s in (left - right).free_symbols}
         if not symbols <= self.declared.constant and self._changes_at_events_alone(left - right):
             return COMPARISONS[body["op"]](left, right)
-        if TIME in symbols and not self._event_free and (event := self._time_event(left - right)) is not None:
-            until, rises = event
-            text, origin = self.sources.text(body["span"]), self.sources.place(body["span"])
-            self.relations.append(Relation(until - symbol(TIME), text, origin, until))
-            before = holds(len(self.relations) - 1)
-            return sympy.Not(before) if rises == (body["op"] in {"Gt", "Ge"}) else before
+        if TIME in symbols and not self._event_free and (line := self._line(left - right)) is not None:
+            rest, slope = line
+            before = self._before(-rest / slope, self.sources.text(body["span"]), self.sources.place(body["span"]))
+            return sympy.Not(before) if (slope > 0) == (body["op"] in {"Gt", "Ge"}) else before
         return super()._relation(body)
 
-    def _time_event(self, difference: sympy.Expr) -> tuple[sympy.Expr, bool] | None:
-        """Where a difference that is linear in time is zero, and whether it rises there; at this very time the new
-        truth holds already, be the relation strict or not."""
+    def _line(self, expression: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr] | None:
+        """Rest and slope of an expression that is linear in time and otherwise changes at events alone."""
         time = symbol(TIME)
-        slope = difference.diff(time)
-        rest = difference.xreplace({time: sympy.Integer(0)})
-        if not slope.is_number or slope == 0 or not self._changes_at_events_alone(rest):
-            return None
-        return -rest / slope, bool(slope > 0)
+        slope = expression.diff(time)
+        rest = expression.xreplace({time: sympy.Integer(0)})
+        is_line = slope.is_number and slope != 0 and self._changes_at_events_alone(rest)
+        return (rest, slope) if is_line else None
+
+    def _before(self, until: sympy.Expr, text: str, origin: str) -> sympy.Symbol:
+        """A time event: true before that time, and false at this very time already."""
+        self.relations.append(Relation(until - symbol(TIME), text, origin, until))
+        return holds(len(self.relations) - 1)
 
     def _rounded(self, body: Mapping[str, Any]) -> Value:
         arguments = [self.read(argument) for argument in body["args"]]
@@ -241,7 +230,7 @@ class EventReader(ExpressionReader):
             return sympy.Integer(int(x))
         is_discrete = self._event_free or self._changes_at_events_alone(x)
         text, origin = self.sources.text(body["span"]), self.sources.find_place(body)
-        negative = -x > 0 if is_discrete else self._holds(-x, text, origin)
+        negative = -x > 0 if is_discrete else self._is_below(x, sympy.Integer(0), text, origin)
         pairs = [(-self._down(-x, body), negative), (self._down(x, body), True)]
         return sympy.Piecewise(*pairs, evaluate=False)
 
@@ -251,8 +240,8 @@ class EventReader(ExpressionReader):
         text, origin = self.sources.text(body["span"]), self.sources.find_place(body)
         name = f"floor[{len(self.rounded) + 1}]"
         before = symbol(pre(name))
-        below = self._threshold(before - x, text, origin)
-        inside = self._threshold(before + 1 - x, text, origin)
+        below = self._is_below(x, before, text, origin)
+        inside = self._is_below(x, before + 1, text, origin)
         lower, higher = sympy.Min(round_down(x), before - 1), sympy.Max(round_down(x), before + 1)
         value = sympy.Piecewise(
             (round_down(x), is_true(INITIAL)), (lower, below), (before, inside), (higher, True), evaluate=False
@@ -260,15 +249,13 @@ class EventReader(ExpressionReader):
         self.rounded.append(Assignment(name, value, origin))
         return symbol(name)
 
-    def _threshold(self, difference: sympy.Expr, text: str, origin: str) -> Boolean:
-        """Whether the difference is positive."""
-        event = self._time_event(difference) if symbol(TIME) in difference.free_symbols else None
-        if event is None:
-            return self._holds(difference, text, origin)
-        until, rises = event
-        self.relations.append(Relation(until - symbol(TIME), text, origin, until))
-        before = holds(len(self.relations) - 1)
-        return sympy.Not(before) if rises else before
+    def _is_below(self, x: sympy.Expr, limit: sympy.Expr, text: str, origin: str) -> Boolean:
+        line = self._line(x)
+        if line is None:
+            return self._holds(limit - x, text, origin)
+        rest, slope = line
+        before = self._before(reach_time(limit, rest, slope), text, origin)
+        return before if slope > 0 else sympy.Not(before)
 
 
 def sample_name(index: int) -> str:

@@ -1,11 +1,9 @@
-"""rumoca's expression trees to SymPy, and source spans to places."""
+"""rumoca's expression trees to SymPy."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,53 +15,19 @@ from .choices import CHOICES
 from .components import Components
 from .errors import BuildError
 from .functions import call
-from .ir import Assignment, Relation, der, holds, symbol
+from .ir_equations import Assignment, Relation
+from .sources import Sources
+from .symbols import der, holds, symbol
 from .values import ONE, ZERO, Value, array, combine, concatenate, each, field, full
 
 RELATIONS = {"Lt": "<", "Le": "<=", "Gt": ">", "Ge": ">="}
+INSTEAD = {"Delay": "; write a chain of lags, or sample the value"}
 LARGE = 40  # nodes of an expression that gets a variable of its own where it can, see ExpressionReader.share
 
 
 def unwrap(node: Any) -> str:
     """The tag of one of rumoca's enumerations, which are strings or one-entry objects."""
     return str(next(iter(node)) if isinstance(node, dict) else node)
-
-
-class Sources:
-    """The Modelica files behind a flat model: turns rumoca's spans into ``file:line``, relative to the library."""
-
-    def __init__(self, files: Mapping[int, tuple[str, str]], root: Path) -> None:
-        self._files = files
-        self._root = root
-
-    def texts(self) -> Iterator[str]:
-        """The text of every file."""
-        return (text for _, text in self._files.values())
-
-    def place(self, span: Mapping[str, int]) -> str:
-        """``file:line`` of a span."""
-        name, text = self._files.get(span["source"], ("", ""))
-        line = text.encode()[: span["start"]].count(b"\n") + 1
-        return f"{os.path.relpath(name, self._root) if name else 'Modelica'}:{line}"
-
-    def text(self, span: Mapping[str, int]) -> str:
-        """The Modelica text of a span, on one line."""
-        _, text = self._files.get(span["source"], ("", ""))
-        return " ".join(text.encode()[span["start"] : span["end"]].decode().split())
-
-    def find_place(self, node: Any) -> str:
-        """The place of the outermost span inside ``node``."""
-        stack = [node]
-        while stack:
-            item = stack.pop()
-            if isinstance(item, dict):
-                if {"source", "start"} <= item.keys() and item["source"] in self._files:
-                    return self.place(item)
-                stack.extend(reversed(item.values()))
-                stack.append(item.get("span"))
-            elif isinstance(item, list):
-                stack.extend(reversed(item))
-        return "Modelica"
 
 
 class ExpressionReader:
@@ -388,7 +352,8 @@ class ExpressionReader:
         tag, body = next(iter(node.items()))
         what = body.get("op") or body.get("function") or tag
         text = self.sources.text(body["span"]) if "span" in body else ""
-        return BuildError(f"{self.sources.find_place(node)}: {unwrap(what)} in {text!r}: not supported")
+        hint = INSTEAD.get(unwrap(what), "")
+        return BuildError(f"{self.sources.find_place(node)}: {unwrap(what)} in {text!r}: not supported{hint}")
 
 
 _READERS: Mapping[str, Callable[[ExpressionReader, Mapping[str, Any]], Value]] = {

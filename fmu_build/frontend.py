@@ -33,8 +33,12 @@ from .clauses import assigned_names, read_algorithms, read_checks, read_whens
 from .components import element_names, spread
 from .errors import BuildError
 from .event_expressions import Declared, EventReader, enumeration_types
-from .expressions import Sources, unwrap
-from .ir import Alternatives, Assignment, EnumerationType, Equation, FlatModel, Simulation, Variable, symbol
+from .expressions import unwrap
+from .ir import FlatModel, Simulation
+from .ir_equations import Assignment, EnumerationType, Equation, Variable
+from .ir_events import Alternatives
+from .sources import Sources
+from .symbols import symbol
 from .values import Value, elements
 
 Node = dict[str, Any]
@@ -312,7 +316,7 @@ def _variables(node: Node, flat: Node, reader: EventReader, kinds: dict[str, Enu
         numbers("nominal"),
         strict=True,
     )
-    return [
+    variables = [
         Variable(
             name=element,
             description=node["description"] or "",
@@ -336,6 +340,14 @@ def _variables(node: Node, flat: Node, reader: EventReader, kinds: dict[str, Enu
         )
         for element, start, is_fixed, binding, lowest, highest, nominal in attributes
     ]
+    return [_with_value(v) if v.causality == "input" and v.binding is not None else v for v in variables]
+
+
+def _with_value(variable: Variable) -> Variable:
+    """An input that is declared with a number starts from it; one with another expression is none of the unit's."""
+    if variable.binding is not None and variable.binding.is_number:
+        return replace(variable, start=variable.binding, binding=None)
+    return replace(variable, causality="local")
 
 
 def _guess(start: sympy.Expr | None, reader: EventReader) -> float:

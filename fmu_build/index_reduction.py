@@ -12,7 +12,8 @@ import networkx as nx
 import sympy
 
 from .errors import BuildError
-from .ir import TIME, Equation, Variable, der, symbol
+from .ir_equations import Equation, Variable
+from .symbols import TIME, der, symbol
 
 MAX_ROUNDS = 200
 

@@ -13,7 +13,9 @@ import networkx as nx
 import sympy
 
 from .errors import BuildError
-from .ir import Assignment, Equation, EquationSystem, Variable, pre, symbol
+from .ir import EquationSystem
+from .ir_equations import Assignment, Equation, Variable
+from .symbols import pre, symbol
 
 
 def initialize(system: EquationSystem) -> EquationSystem:

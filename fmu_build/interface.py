@@ -8,8 +8,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from .ir import DEFAULT_TOLERANCE, TIME, EnumerationType, SortedModel, Terminal, Variable, relation_name
+from .ir import DEFAULT_TOLERANCE, SortedModel, Terminal
+from .ir_equations import EnumerationType, Variable
 from .slices import dependencies, start_value, tunable_parameters
+from .symbols import TIME, relation_name
 
 GENERATION_TOOL = "OverrunHitch fmu_build"
 Dependencies = dict[str, tuple[str, ...]]  # names of unknowns to names of knowns, both listed

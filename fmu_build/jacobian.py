@@ -9,9 +9,11 @@ from __future__ import annotations
 
 import sympy
 
-from .ir import TIME, Assignment, Block, JacobianModel, Loop, LoopGradient, LoopPartials, Partials, SortedModel, symbol
+from .ir import JacobianModel, LoopGradient, LoopPartials, Partials, SortedModel
+from .ir_equations import Assignment, Block, Loop
 from .loops import loop_gradients, loop_partials
 from .slices import needed_for, reaching
+from .symbols import TIME, symbol
 
 
 def differentiate(model: SortedModel) -> JacobianModel:

@@ -14,7 +14,9 @@ import numpy as np
 import sympy
 from scipy.optimize import linear_sum_assignment
 
-from .ir import Assignment, Equation, Loop, LoopGradient, LoopPartials, Variable, round_down, symbol
+from .ir import LoopGradient, LoopPartials
+from .ir_equations import Assignment, Equation, Loop, Variable
+from .symbols import round_down, symbol
 
 ZERO = sympy.Integer(0)
 

@@ -34,24 +34,29 @@ def build(
 ) -> None:
     """Build the FMU ``output`` of ``class_name`` in the file or library folder ``modelica``, for FMI version 2 or 3.
 
-    ``platforms`` are names that ``named_platforms`` takes; ``progress`` is told what takes time.
+    ``platforms`` are names that ``named_platforms`` takes; ``progress`` is told the name of each stage that begins.
     Raises BuildError; then nothing is written.
     """
     chosen = named_platforms(platforms)
     identifier = class_name.rpartition(".")[2]
+    progress("reading Modelica")
     flat = flatten(modelica, class_name)  # FlatModel: one class, flattened
+    progress("sorting equations")
     plain = lower(flat)  # FlatModel: when-clauses and algorithms have become assignments
     system = derive(plain)  # EquationSystem: equations, states, relations, parameters
     system = initialize(system)  # EquationSystem: with as many equations at the start as unknowns
     model = sort(system)  # SortedModel: assignments in the order of computation
+    progress("differentiating")
     jacobian = differentiate(model)  # JacobianModel: exact partial derivatives
     elimination = eliminate(jacobian.entries, len(model.states))  # Elimination: pivots, pattern of the factors
+    progress("printing C")
     ports = declare(flat, model)  # Ports: coupling and terminals, if the class declares some
     equations = print_c(model, jacobian, identifier, ports.coupling)  # CSources: variables.h, model.c
     algebra = print_elimination(elimination)  # CSources: elimination.h, elimination.c
     generated = CSources(equations.files | algebra.files)
     interface = expose(model, identifier, ports.terminals)  # Interface: variables in their roles, dependencies
 
+    progress("describing")
     simulations = [simulate(modelica, example) for example in flat.examples]  # Simulation: another tool's results
     files = contents(flat, interface, generated, simulations, fmi)  # everything but the binaries
     token = content_token(files).encode()
@@ -68,5 +73,6 @@ def build(
             compile_library(Path(work), library, platform)
             folder = platform.fmi2_folder if fmi == 2 else platform.fmi3_folder
             libraries.setdefault(f"binaries/{folder}/{library.name}", []).append(library.read_bytes())
+    progress("packing")
     files |= {place: universal(same) for place, same in libraries.items()}
     write_fmu(output, files)

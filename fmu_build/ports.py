@@ -14,7 +14,8 @@ from __future__ import annotations
 import re
 
 from .errors import BuildError
-from .ir import Coupling, FlatModel, Member, Ports, SortedModel, Terminal, symbol
+from .ir import Coupling, FlatModel, Member, Ports, SortedModel, Terminal
+from .symbols import symbol
 
 COUPLING_KINDS = {
     "across": "input",

@@ -9,22 +9,11 @@ import networkx as nx
 import sympy
 
 from .errors import BuildError
-from .ir import (
-    Assignment,
-    Block,
-    EquationSystem,
-    Memory,
-    Relation,
-    Schedule,
-    ScheduledCheck,
-    ScheduledReinit,
-    ScheduledSample,
-    Variable,
-    pre,
-    symbol,
-    truth,
-)
+from .ir import EquationSystem
+from .ir_equations import Assignment, Block, Relation, Variable
+from .ir_events import Memory, Schedule, ScheduledCheck, ScheduledReinit, ScheduledSample
 from .slices import reaching
+from .symbols import TIME, pre, symbol, time_left, truth
 
 
 @dataclass(frozen=True)
@@ -102,7 +91,7 @@ def _for_checks(system: EquationSystem, continuous: Sequence[Block], tests: list
 
 def _residuals(relations: Sequence[Relation], times: list[str]) -> list[sympy.Expr]:
     names = iter(times)
-    return [r.residual if r.until is None else symbol(next(names)) - symbol("time") for r in relations]
+    return [r.residual if r.until is None else time_left(symbol(next(names)), symbol(TIME)) for r in relations]
 
 
 def _memories(system: EquationSystem, own: Sequence[Assignment], continuous: Sequence[Block]) -> tuple[Memory, ...]:

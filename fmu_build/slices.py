@@ -7,7 +7,9 @@ from typing import TypeVar
 
 import sympy
 
-from .ir import Assignment, Block, LoopGradient, SortedModel, symbol
+from .ir import LoopGradient, SortedModel
+from .ir_equations import Assignment, Block
+from .symbols import symbol
 
 
 def needed_for(targets: Iterable[str], model: SortedModel) -> tuple[Block, ...]:

@@ -14,23 +14,12 @@ import networkx as nx
 import sympy
 
 from .errors import BuildError
-from .ir import (
-    INITIAL,
-    TERMINAL,
-    Assignment,
-    Block,
-    Equation,
-    EquationSystem,
-    Loop,
-    Relation,
-    SortedModel,
-    Variable,
-    relation_name,
-    symbol,
-)
+from .ir import EquationSystem, SortedModel
+from .ir_equations import Assignment, Block, Equation, Loop, Relation, Variable
 from .loops import guess_variables, make_loop, rest, slope
 from .schedule import Scheduled, schedule
 from .slices import reaching
+from .symbols import INITIAL, TERMINAL, relation_name, symbol
 from .units import per_second
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from lxml import etree
 
-from .ir import EnumerationType
+from .ir_equations import EnumerationType
 from .units import base_unit
 
 LOG_CATEGORIES = {

@@ -2,17 +2,14 @@
 
 #if HAS_EVENTS
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
+#include "event_time.h"
 #include "validation.h"
 
 /* Times at one event that discrete variables may change, one after another, before that is taken to be without end. */
 enum { MAX_ROUNDS = 1000 };
-
-/* Callers sum up their communication points: a tick that far ahead, relatively, is there. */
-static const double SAME_TIME = 8.0 * DBL_EPSILON;
 
 static bool is_set(const State *s, unsigned variable) { return s->v.at[variable] > 0.5; }
 
@@ -149,8 +146,6 @@ static double tick(const State *s, int sample)
     return s->v.at[samples[sample].start] + s->discrete.ticks[sample] * s->v.at[samples[sample].interval];
 }
 
-static bool is_there(double tick_time, double time) { return tick_time - time <= SAME_TIME * fabs(time); }
-
 /* The number of the last tick up to now, but for rounding; -1 if there was none. */
 static double ticks_passed(const State *s, int sample)
 {
@@ -253,7 +248,7 @@ double discrete_next_time(const State *s)
     }
     for (int i = 0; i < N_TIME_EVENTS; i++) {
         const double time = s->v.at[time_events[i]];
-        next = time > s->v.time ? fmin(next, time) : next;
+        next = is_there(time, s->v.time) ? next : fmin(next, time);
     }
     return next;
 }

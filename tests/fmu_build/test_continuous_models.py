@@ -285,6 +285,37 @@ end M;""",
         3.0,
         lambda t: {"phi_2": 0.1 * np.cos(2 * t), "w_1": -0.6 * np.sin(2 * t)},
     ),
+    "inputs with values, components under conditions": Case(
+        """
+model Decay
+  Real x(start=1, fixed=true);
+equation
+  der(x) = -x;
+end Decay;
+model M
+  parameter Boolean both = false;
+  Decay a, b if both;
+  input Real u = 2;
+  input Real w = 3*time;
+  Real y(start=0, fixed=true);
+equation
+  der(y) = u + w;
+end M;""",
+        2.0,
+        lambda t: {"y": 2 * t + 1.5 * t**2, "a.x": np.exp(-t)},
+    ),
+    "numbers that SymPy knows by name": Case(
+        """
+model M
+  constant Real pi = 2*asin(1);
+  constant Real e = exp(1);
+  Real x(start=sqrt(2), fixed=true);
+equation
+  der(x) = pi*x/sqrt(2) + e/sqrt(3) + log(2) + log(10);
+end M;""",
+        1.0,
+        solution("x", lambda t, y: [np.pi * y[0] / 2**0.5 + np.e / 3**0.5 + np.log(20)], [2**0.5]),
+    ),
     "rounding": Case(
         """
 model M

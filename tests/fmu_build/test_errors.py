@@ -34,6 +34,24 @@ BROKEN = {
         "more than one",
     ),
     "delay": ("model M\n  Real y = delay(time, 0.1);\nend M;", "M.mo:2", "Delay"),
+    "derivative of an input": ("model M\n  input Real u;\n  Real v=der(x), x=u;\nend M;", "M.mo:3", "input u"),
+    "constraint": (
+        "model M\n  Real x(start=1), y(start=0), u, v, L;\nequation\n  der(x) = u;\n  der(y) = v;\n  der(u) = -L*x;\n"
+        "  der(v) = -L*y - 9.81;\n  x^2 + y^2 = 1;\nend M;",
+        "M.mo:8",
+        "constraint is not linear in any of the states",
+    ),
+    "external function": (
+        'model M\n  function f\n    input Real u;\n    output Real y;\n    external "C" y = g(u);\n  end f;\n'
+        "  Real x = f(time);\nend M;",
+        "M.mo:",
+        "write its algorithm in Modelica",
+    ),
+    "subscript that changes": (
+        "model M\n  parameter Real a[2] = {1, 2};\n  Integer i = integer(time) + 1;\n  Real x = a[i];\nend M;",
+        "M.mo:4",
+        "changes in time",
+    ),
     "edge of an expression": (
         "model M\n  Boolean b;\n  Integer n(start=0);\nequation\n  b = time>1;\n  when edge(not b) then\n    n=1;\n"
         "  end when;\nend M;",
@@ -52,6 +70,12 @@ BROKEN = {
         "String(scalar)",
     ),
     "text": ('model M\n  String s = "a";\n  Real x = time;\nend M;', "M.mo:2", "String"),
+    "loop too large": (
+        "model M\n  Real x(start=1, fixed=true);\n  Real u[240];\nequation\n  der(x) = -u[9];\n  u[1] = x + u[2];\n"
+        "  for i in 2:239 loop\n    u[i - 1] - 3*u[i] + u[i + 1] = 0;\n  end for;\n  u[240] = u[239]/2;\nend M;",
+        "M.mo:",
+        "take 470 KB",  # 8*240*(240 + 4), and a column of 8*240,
+    ),
     "index": (
         "model M\n  Real x(start=0, fixed=true);\n  Real y(start=0, fixed=true);\n"
         "equation\n  der(x) + der(y) = 1;\n  x = 2*y;\nend M;",
@@ -90,6 +114,16 @@ def test_without_a_compiler(modelica_library: Path, tmp_path: Path) -> None:
     result = run_command(*arguments, CC="no-such-compiler", PATH="")
     assert (result.returncode, result.stderr.count("\n")) == (2, 1)
     assert "no C compiler" in result.stderr and list(tmp_path.iterdir()) == []
+
+
+def test_stages_and_their_times_on_request(modelica_file: Writer, tmp_path: Path) -> None:
+    source = modelica_file("model M\n  Real x(start=1, fixed=true);\nequation\n  der(x) = -x;\nend M;")
+    result = run_command(str(source), "M", "-o", str(tmp_path / "M.fmu"), "--verbose")
+    lines = result.stderr.splitlines()
+    seconds = [float(line.split()[-2]) for line in lines]
+    assert result.returncode == 0 and all(line.startswith("fmu_build: ") and line.endswith(" s") for line in lines)
+    assert [line.split()[1] for line in lines[:1] + lines[-1:]] == ["reading", "in"]
+    assert sum(seconds[:-1]) == pytest.approx(seconds[-1], abs=0.1)
 
 
 def test_an_output_that_cannot_be_written(modelica_file: Writer, tmp_path: Path) -> None:

@@ -9,7 +9,8 @@ import fmpy
 import numpy as np
 import pytest
 
-from fmu_build.ir import Loop, SortedModel
+from fmu_build.ir import SortedModel
+from fmu_build.ir_equations import Loop
 from fmu_build.pipeline import build
 
 from ..unit import Unit

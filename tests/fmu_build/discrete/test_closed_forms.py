@@ -216,3 +216,31 @@ def test_stick_slip(way: Way) -> None:
         assert x == pytest.approx(exact[0], abs=1e-6), time
         assert sticks == exact[1]
     assert result["slips"][-1] == 3
+
+
+PREY = """
+model PredatorPrey "Lotka and Volterra, steady until someone hunts the prey"
+  parameter Real a = 1.5, b = 1, c = 3, d = 1;
+  parameter Real hunting = 0.4;
+  Real x(start=2.5) "Prey", y(start=1.2) "Predators";
+  Real growth = if time < 1 then a else a - hunting;
+initial equation
+  der(x) = 0;
+  der(y) = 0;
+equation
+  der(x) = growth*x - b*x*y;
+  der(y) = d*x*y - c*y;
+end PredatorPrey;
+"""
+
+
+@pytest.mark.parametrize("a", [1.5, 1.7])
+def test_predator_and_prey_from_a_steady_start(way: Way, a: float) -> None:
+    result = way.run(PREY, 5.0, 0.1, ["x", "y"], start_values={"a": a})
+    x, y = result["x"], result["y"]
+    invariant = x - 3 * np.log(x) + y - (a - 0.4) * np.log(y)
+    steady = result["time"] < 1.05
+    np.testing.assert_allclose(x[steady], 3, atol=1e-8)
+    np.testing.assert_allclose(y[steady], a, atol=1e-8)
+    np.testing.assert_allclose(invariant, invariant[0], atol=1e-7)
+    assert np.ptp(x) > 1

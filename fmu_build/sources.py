@@ -1,0 +1,45 @@
+"""Source spans of rumoca's trees to places and texts."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+
+class Sources:
+    """The Modelica files behind a flat model: turns rumoca's spans into ``file:line``, relative to the library."""
+
+    def __init__(self, files: Mapping[int, tuple[str, str]], root: Path) -> None:
+        self._files = files
+        self._root = root
+
+    def texts(self) -> Iterator[str]:
+        """The text of every file."""
+        return (text for _, text in self._files.values())
+
+    def place(self, span: Mapping[str, int]) -> str:
+        """``file:line`` of a span."""
+        name, text = self._files.get(span["source"], ("", ""))
+        line = text.encode()[: span["start"]].count(b"\n") + 1
+        return f"{os.path.relpath(name, self._root) if name else 'Modelica'}:{line}"
+
+    def text(self, span: Mapping[str, int]) -> str:
+        """The Modelica text of a span, on one line."""
+        _, text = self._files.get(span["source"], ("", ""))
+        return " ".join(text.encode()[span["start"] : span["end"]].decode().split())
+
+    def find_place(self, node: Any) -> str:
+        """The place of the outermost span inside ``node``."""
+        stack = [node]
+        while stack:
+            item = stack.pop()
+            if isinstance(item, dict):
+                if {"source", "start"} <= item.keys() and item["source"] in self._files:
+                    return self.place(item)
+                stack.extend(reversed(item.values()))
+                stack.append(item.get("span"))
+            elif isinstance(item, list):
+                stack.extend(reversed(item))
+        return "Modelica"

@@ -1,0 +1,88 @@
+"""Names of variables inside expressions, and functions that SymPy does not have.
+
+A variable is ``symbol(name)``, the time derivative of ``x`` is ``symbol(der(x))``, its value before an event
+``symbol(pre(x))`` and the truth value of relation ``i`` is ``holds(i)``. Real literals are SymPy Floats of double
+precision. A Boolean variable is 0 or 1, and true as a condition where it is above 0.5 (``is_true``). An enumeration is
+the number of its literal, from 1.
+"""
+
+from __future__ import annotations
+
+import sympy
+
+TIME = "time"
+INITIAL = "initial()"  # Boolean variables: true while the model is initialized, and at its end
+TERMINAL = "terminal()"
+
+
+def symbol(name: str) -> sympy.Symbol:
+    """The SymPy symbol of the variable ``name``."""
+    return sympy.Symbol(name, real=True)
+
+
+def der(name: str) -> str:
+    """Name of the time derivative of ``name``, as FMI's structured naming convention writes it."""
+    return f"der({name})"
+
+
+def pre(name: str) -> str:
+    """Name of the value of ``name`` just before an event."""
+    return f"pre({name})"
+
+
+def relation_name(index: int) -> str:
+    """Name of the variable that is the residual of relation ``index``."""
+    return f"relation[{index + 1}]"
+
+
+def holds(index: int) -> sympy.Symbol:
+    """The truth value of relation ``index``, constant between events."""
+    return sympy.Symbol(f"holds[{index}]")
+
+
+def is_true(name: str) -> sympy.Expr:
+    """The condition that the Boolean variable ``name`` is true."""
+    return symbol(name) > sympy.Float(0.5)
+
+
+def truth(condition: sympy.Expr) -> sympy.Expr:
+    """1 where ``condition`` is true, else 0: what a Boolean variable is set to."""
+    return sympy.Piecewise((sympy.Integer(1), condition), (sympy.Integer(0), True), evaluate=False)
+
+
+class round_down(sympy.Function):  # type: ignore[misc]
+    """The largest integer not above its argument, whose derivative is 0 wherever it has one."""
+
+    nargs = 1
+    is_real = True
+
+    @classmethod
+    def eval(cls, argument: sympy.Expr) -> sympy.Expr | None:
+        """A number, of a number."""
+        return sympy.floor(argument) if argument.is_number else None
+
+    def fdiff(self, argindex: int = 1) -> sympy.Expr:
+        """0"""
+        return sympy.Integer(0)
+
+
+class reach_time(sympy.Function):  # type: ignore[misc]
+    """The time at which ``rest + slope*time`` reaches ``value``: arguments (value, rest, slope).
+
+    It is a function, and not the quotient, because SymPy would write that differently for different values, and so
+    round one and the same time differently.
+    """
+
+    nargs = 3
+    is_real = True
+
+
+class time_left(sympy.Function):  # type: ignore[misc]
+    """From now to an event: arguments (its time, now). Their difference, zero where that is rounding."""
+
+    nargs = 2
+    is_real = True
+
+    def fdiff(self, argindex: int = 1) -> sympy.Expr:
+        """1 or -1"""
+        return sympy.Integer(1 if argindex == 1 else -1)
