@@ -37,7 +37,8 @@ FREQUENCY_ALLOWED = 0.002  # relative
 STEADY_ALLOWED = 1e-4  # relative, beside slip
 RATIO_ALLOWED = 0.0005
 
-BEYOND_THEORY = ("F_pull_max", "rebound", "mu", "sigma", "CdA_c", "CdA_t", "C_rr")  # judged at their neutral values alone
+# Judged at their neutral values alone.
+BEYOND_THEORY = ("F_pull_max", "rebound", "mu", "sigma", "CdA_c", "CdA_t", "C_rr")
 
 WHEELS_SETTLED = math.log(1e6)  # the wheels' transient starts at the size of the motion itself
 DECAYED = math.log(100.0)  # 40 dB down the rest weighs nothing in the fit, and soon is the integrator's noise
