@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -11,9 +12,17 @@ import pytest
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from fmu_build.pipeline import build
+from overrun_hitch.unit import listening
 
 ROOT = Path(__file__).parents[1]
 LIBRARY = ROOT / "modelica" / "OverrunHitch"
+
+
+@pytest.fixture(autouse=True)
+def a_receiver_of_messages_that_stays() -> Iterator[None]:
+    """fmpy.simulate_fmu(logger=...) leaves one that is gone, and the next message in this process would crash it."""
+    yield
+    listening()
 
 
 @pytest.fixture(scope="session")

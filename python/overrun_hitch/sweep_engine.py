@@ -213,8 +213,8 @@ class _Crew:
             self._client.unregister_worker_plugin(self._name)
 
     def threads(self) -> int:
-        """How many batches can run at once, now."""
-        return sum(self._client.nthreads().values())
+        """How many batches can run at once, now; at least 1, for a worker that has died is replaced."""
+        return max(1, int(sum(self._client.nthreads().values())))
 
     def completions(self) -> as_completed:
         """An iterator over futures as they are done, that takes more while it runs."""

@@ -291,24 +291,30 @@ def _receive(environment: int | None, instance: bytes, status: int, category: by
 
 
 _RECEIVER = fmi2CallbackLoggerTYPE(_receive)
-_CALLBACKS = fmi2CallbackFunctions(
-    logger=_RECEIVER,
-    allocateMemory=fmpy.fmi2.defaultCallbacks.allocateMemory,
-    freeMemory=fmpy.fmi2.defaultCallbacks.freeMemory,
-)
-try:
-    from fmpy.logging import addLoggerProxy
 
-    addLoggerProxy(ctypes.byref(_CALLBACKS))
-except (ImportError, OSError):
-    pass  # fmpy ships no proxy for this platform: messages come without their values
+
+def listening() -> Any:
+    """Callbacks for an FMU. From now on messages come to us, also after others have left a receiver that is gone, as
+    fmpy.simulate_fmu does when it is given a logger."""
+    callbacks = fmi2CallbackFunctions(
+        logger=_RECEIVER,
+        allocateMemory=fmpy.fmi2.defaultCallbacks.allocateMemory,
+        freeMemory=fmpy.fmi2.defaultCallbacks.freeMemory,
+    )
+    try:
+        from fmpy.logging import addLoggerProxy
+
+        addLoggerProxy(ctypes.byref(callbacks))
+    except (ImportError, OSError):
+        pass  # fmpy ships no proxy for this platform: messages come without their values
+    return callbacks
 
 
 @contextmanager
 def _instance(fmu: Path, description: Any, folder: str) -> Iterator[tuple[Any, list[str]]]:
     """An instance of the FMU. What goes wrong in the FMU becomes a HitchError with the unit's last message."""
     messages: list[str] = []
-    callbacks = fmi2CallbackFunctions.from_buffer_copy(_CALLBACKS)
+    callbacks = listening()
     callbacks.componentEnvironment = id(messages)
     slave = _loaded(fmu, description, folder)
     _caught[id(messages)] = messages

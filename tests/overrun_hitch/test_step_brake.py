@@ -19,6 +19,7 @@ from overrun_hitch.parameters import CASES, FIGURES, HitchError, Scenario
 from overrun_hitch.results import VARIABLES, read_csv, scenario_of
 from overrun_hitch.run import car_alone, step_brake
 from overrun_hitch.steady import steady
+from overrun_hitch.unit import opened_unit
 from tests.oracles import radau
 
 
@@ -207,3 +208,11 @@ def test_other_users_of_fmpy_in_the_process_keep_their_messages(
     with pytest.raises(FMICallException):
         fmpy.simulate_fmu(str(car_trailer_fmu), stop_time=0.1, start_values={"M_c": -1.0})
     assert "M_c = -1 kg is not allowed" in capsys.readouterr().out
+
+
+def test_a_receiver_that_others_have_left_is_not_called(car_trailer_fmu: Path) -> None:
+    """fmpy.simulate_fmu with a logger registers one that is gone when it returns."""
+    fmpy.simulate_fmu(str(car_trailer_fmu), stop_time=0.1, logger=lambda *_: None)
+    gc.collect()
+    with pytest.raises(HitchError, match="M_c = -1 kg is not allowed"), opened_unit(car_trailer_fmu) as unit:
+        unit.start_with({"M_c": -1.0}, 1e-6)
