@@ -14,6 +14,7 @@ import argparse
 import os
 import tempfile
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -29,6 +30,9 @@ from overrun_hitch.sweep_spec import SweepSpec
 from overrun_hitch.unit import opened_unit
 
 RANGES = {"C": {"min": 100.0, "max": 1000.0}, "V_0": {"min": 20.0, "max": 40.0}, "M_t": {"min": 300.0, "max": 700.0}}
+RUNS = 10_000
+RUNS_PER_SECOND = 600.0  # asked for, with two workers
+OVERHEAD = 0.2  # allowed
 AT_ONCE = 500  # runs whose metrics are computed together in the bare loop, as in a batch
 
 
@@ -81,30 +85,93 @@ def engine(plan: Plan, workers: int) -> tuple[float, float, float, float]:
     return wall, cpu, quarter, watch.memory[-1]
 
 
+@dataclass(frozen=True)
+class Measured:
+    """A sweep beside the same runs in a bare loop, before and after it."""
+
+    workers: int
+    wall: float  # s a run
+    cpu: float  # s a run
+    bare_wall: float
+    bare_cpu: float
+    memory: tuple[float, float]  # MiB of the largest worker, a quarter through and at the end
+
+    @property
+    def overhead(self) -> float:
+        """What the engine takes over the bare runs, in CPU time (1)."""
+        return self.cpu / self.bare_cpu - 1.0
+
+    def row(self) -> str:
+        """For the table below HEADER."""
+        return (
+            f"| {self.workers} | {1.0 / self.wall:.0f} | {1.0 / self.bare_wall:.0f} | {1e3 * self.cpu:.2f} ms "
+            f"| {1e3 * self.bare_cpu:.2f} ms | {100.0 * self.overhead:.0f} % "
+            f"| {self.memory[0]:.0f}, {self.memory[1]:.0f} MiB |"
+        )
+
+
+HEADER = (
+    "| workers | runs/s | bare, one core | CPU a run | bare | over bare | memory of a worker at 1/4, at the end |\n"
+    "|---|---|---|---|---|---|---|"
+)
+
+
+def measure(plan: Plan, fmu: Path, workers: int) -> Measured:
+    """The sweep with so many workers."""
+    few = min(plan.runs // AT_ONCE, 4) * AT_ONCE
+    before, found, after = bare(plan, fmu, few), engine(plan, workers), bare(plan, fmu, few)
+    wall, cpu = (0.5 * (one + other) for one, other in zip(before, after, strict=True))
+    return Measured(workers, found[0], found[1], wall, cpu, found[2:])
+
+
+def plan_of(fmu: Path, runs: int, metrics: list[str] | None = None, trajectories: Sequence[str] = ()) -> Plan:
+    """Step brakes of 6 s with 100 output points."""
+    spec = SweepSpec(
+        communication_step=0.06, metrics=metrics, trajectories=list(trajectories),
+        sample={"method": "latin-hypercube", "count": runs, "ranges": RANGES},
+    )  # fmt: skip
+    return planned(spec, [fmu])
+
+
+def section(fmu: Path) -> tuple[str, bool]:
+    """For results.md, and whether what is asked of sweeps is met."""
+    plan = plan_of(fmu, RUNS)
+    found = [measure(plan, fmu, workers) for workers in (1, 2)]
+    fast, cheap = 1.0 / found[-1].wall >= RUNS_PER_SECOND, max(one.overhead for one in found) <= OVERHEAD
+    verdicts = " ".join(
+        f"{what}: {'met' if met else 'NOT MET'}."
+        for what, met in (
+            (f"At least {RUNS_PER_SECOND:g} runs/s with 2 workers", fast),
+            (f"At most {100.0 * OVERHEAD:g} % over bare", cheap),
+        )
+    )
+    text = f"""## Sweeps
+
+`hitch sweep`'s engine: {RUNS} step brakes of 6 s with 100 output points and {len(plan.job.metrics)} metrics
+each, beside the same runs in a bare loop; CPU time of all processes.
+
+{HEADER}
+{chr(10).join(one.row() for one in found)}
+
+{verdicts}
+"""
+    return text, fast and cheap
+
+
 def main() -> None:
     """Measure and print one table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("fmu", type=Path)
-    parser.add_argument("--runs", type=int, default=10_000)
+    parser.add_argument("--runs", type=int, default=RUNS)
     parser.add_argument("--workers", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--metrics", nargs="+", help="all, if not given")
     parser.add_argument("--trajectories", nargs="+", default=[])
     asked = parser.parse_args()
-    spec = SweepSpec(
-        communication_step=0.06, metrics=asked.metrics, trajectories=asked.trajectories,
-        sample={"method": "latin-hypercube", "count": asked.runs, "ranges": RANGES},
-    )  # fmt: skip
-    plan = planned(spec, [asked.fmu])
+    plan = plan_of(asked.fmu, asked.runs, asked.metrics, asked.trajectories)
     print(f"{asked.runs} runs, {len(plan.job.metrics)} metrics, {len(plan.job.trajectories)} trajectories, "
-          f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f} before")  # fmt: skip
-    few = min(asked.runs // AT_ONCE, 4) * AT_ONCE
-    print("            runs/s  CPU ms/run  over bare (CPU)  worker MiB at 1/4, at end")
+          f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f} before\n{HEADER}")  # fmt: skip
     for workers in asked.workers:
-        before, found, after = bare(plan, asked.fmu, few), engine(plan, workers), bare(plan, asked.fmu, few)
-        cpu = 0.5 * (before[1] + after[1])
-        print(f"bare        {2.0 / (before[0] + after[0]):6.0f}  {1e3 * cpu:10.3f}")
-        print(f"{workers} worker(s) {1.0 / found[0]:6.0f}  {1e3 * found[1]:10.3f}  {found[1] / cpu - 1.0:15.1%}  "
-              f"{found[2]:10.0f} {found[3]:10.0f}")  # fmt: skip
+        print(measure(plan, asked.fmu, workers).row())
 
 
 if __name__ == "__main__":
