@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import pytest
+from hand_written import Model
 from runtime_fmi3 import Unit3
-from runtime_models import Model
 from runtime_unit import Library, Unit, compile_model
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
 
-from runtime_models import Model, Variable
+from hand_written import Model, Variable
 
 
 @dataclass(frozen=True)

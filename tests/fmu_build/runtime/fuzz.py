@@ -12,7 +12,8 @@ HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE), str(HERE.parents[2])]
 
 from coupled_models import TOWED  # noqa: E402
-from runtime_models import CAR_TRAILER, NO_STATES, OSCILLATOR, PARADOX, SINGULAR, SLIDING, Model  # noqa: E402
+from hand_written import Model  # noqa: E402
+from runtime_models import CAR_TRAILER, NO_STATES, OSCILLATOR, PARADOX, SINGULAR, SLIDING  # noqa: E402
 from runtime_unit import compile_sources  # noqa: E402
 
 MODELS = (CAR_TRAILER, OSCILLATOR, SINGULAR, SLIDING, PARADOX, NO_STATES, TOWED)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from runtime_models import TOKEN
+from hand_written import TOKEN
 
 from fmu_build.c_elimination import print_elimination
 from fmu_build.c_model import print_c

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from runtime_models import TOKEN
+from hand_written import TOKEN
 from runtime_unit import OK, Library
 
 LOG = ct.CFUNCTYPE(None, ct.c_void_p, ct.c_int, ct.c_char_p, ct.c_char_p)

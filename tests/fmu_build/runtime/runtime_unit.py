@@ -11,7 +11,7 @@ from pathlib import Path
 
 import fmpy
 import numpy as np
-from runtime_models import TOKEN, Model
+from hand_written import TOKEN, Model
 
 ROOT = Path(__file__).parents[3]
 RUNTIME = ROOT / "fmu_build" / "runtime"

@@ -11,17 +11,8 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from runtime_models import (
-    CAR_TRAILER,
-    DERIVATIVE_ENDS,
-    NO_STATES,
-    OSCILLATOR,
-    ROOT_OF_NEGATIVE,
-    SINGULAR,
-    SLIDING,
-    TOKEN,
-    Model,
-)
+from hand_written import TOKEN, Model
+from runtime_models import CAR_TRAILER, DERIVATIVE_ENDS, NO_STATES, OSCILLATOR, ROOT_OF_NEGATIVE, SINGULAR, SLIDING
 from runtime_unit import ALLOCATE, DISCARD, ERROR, FMI_HEADERS, FREE, LOGGER, OK, WARNING, Callbacks, Library, Unit
 
 NAN, INF = math.nan, math.inf

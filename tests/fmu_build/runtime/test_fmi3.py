@@ -11,8 +11,9 @@ from math import nan, pi
 
 import numpy as np
 import pytest
+from hand_written import TOKEN
 from runtime_fmi3 import LOG, Unit3
-from runtime_models import CAR_TRAILER, NO_STATES, OSCILLATOR, SINGULAR, SLIDING, TOKEN
+from runtime_models import CAR_TRAILER, NO_STATES, OSCILLATOR, SINGULAR, SLIDING
 from runtime_unit import DISCARD, ERROR, FMI_HEADERS, OK, WARNING, Library, Unit
 from scipy.integrate import solve_ivp
 

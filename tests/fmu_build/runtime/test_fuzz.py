@@ -9,7 +9,8 @@ import pytest
 from coupled_models import TOWED
 from fuzz import fuzzer
 from generated_models import EVENTS, generate
-from runtime_models import CAR_TRAILER, OSCILLATOR, Model
+from hand_written import Model
+from runtime_models import CAR_TRAILER, OSCILLATOR
 
 
 @pytest.mark.parametrize("fmi", [2, 3])

@@ -10,15 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from runtime_models import (
-    GROWING,
-    PROTHERO_ROBINSON,
-    SMOOTH,
-    STIFFLY_TIED,
-    TIED_RATES,
-    VAN_DER_POL,
-    Model,
-)
+from hand_written import Model
+from runtime_models import GROWING, PROTHERO_ROBINSON, SMOOTH, STIFFLY_TIED, TIED_RATES, VAN_DER_POL
 from runtime_unit import OK, Library, Unit
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from runtime_models import CAR_TRAILER, OSCILLATOR, SINGULAR, Model
+from hand_written import Model
+from runtime_models import CAR_TRAILER, OSCILLATOR, SINGULAR
 from runtime_unit import ERROR, OK, Library, Unit
 
 NAMES = ["compression", "v_c", "v_t", "der_w_c"]
