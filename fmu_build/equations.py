@@ -34,6 +34,8 @@ def derive(model: FlatModel) -> EquationSystem:
     ]
     equations = [*model.equations, *bindings]
     aliases = _aliases(equations, variables)
+    model = replace(model, variables=_with_starts_of_aliases(model.variables, aliases))
+    variables = {variable.name: variable for variable in model.variables}
     values = _constants_and_roots(variables, aliases)
     relations, truths = _unique_relations(model.relations, values)
     replacements = {**values, **truths}
@@ -131,6 +133,24 @@ def _aliases(equations: Iterable[Equation], variables: Mapping[str, Variable]) -
     return {name: roots[name] for name in order if name in roots and roots[name] != name}
 
 
+def _with_starts_of_aliases(variables: tuple[Variable, ...], aliases: Names) -> tuple[Variable, ...]:
+    """The variables; one that stands for others has the start value of the first of them that has one, best a fixed
+    one, where its own is none, or not fixed."""
+    starts: dict[str, Variable] = {}
+    for v in variables:
+        root = aliases.get(v.name, v.name)
+        best = starts.get(root)
+        own = v.start is not None and v.variability == "continuous"
+        if own and (best is None or (v.fixed, v.name == root) > (best.fixed, best.name == root)):
+            starts[root] = v
+    return tuple(
+        replace(v, start=giver.start, fixed=giver.fixed, guess=giver.guess)
+        if (giver := starts.get(v.name)) is not None and giver is not v
+        else v
+        for v in variables
+    )
+
+
 def _equal_names(residual: sympy.Expr, variables: Mapping[str, Variable]) -> tuple[str, str] | None:
     symbols = sorted(residual.free_symbols, key=str)
     if len(symbols) != 2 or residual not in (symbols[0] - symbols[1], symbols[1] - symbols[0]):
@@ -199,7 +219,7 @@ def _choose_states(
     names = {symbol(n): n for n in algebraics}
     present = _symbols(equations)
     states = [n for n in algebraics if symbol(der(n)) in present]
-    starts = {n: start for n in states if (start := variables[n].start) is not None}
+    starts = {n: sympy.Integer(0) if (start := variables[n].start) is None else start for n in states}
     fixed = {n for n in states if variables[n].fixed}
     derivatives = {symbol(der(n)) for n in algebraics}
     result = list(equations)
@@ -208,7 +228,7 @@ def _choose_states(
         occurring = [names[s] for s in symbols if s in names]
         if not occurring or symbols & derivatives or not set(occurring) <= set(states):
             continue
-        candidates = sorted(occurring, key=lambda n: (variables[n].state_select, n in fixed, -algebraics.index(n)))
+        candidates = sorted(occurring, key=lambda n: (variables[n].state_select, n in fixed, variables[n].start is not None, -algebraics.index(n)))
         demoted = next((n for n in candidates if not equation.residual.diff(symbol(n)).has(symbol(n))), None)
         if demoted is None:
             raise BuildError(

@@ -302,6 +302,7 @@ def _variables(node: Node, flat: Node, reader: EventReader, kinds: dict[str, Enu
         return [None if v is None else _number(v, key, name, origin, reader) for v in expressions(key)]
 
     names = element_names(name, dims) if dims else [name]
+    is_open = variability == "continuous" and _has_no_start(node)
     is_top_level = "." not in name
     causality = unwrap(node["causality"]).lower()
     given = node["fixed"] if isinstance(node["fixed"], list) else [node["fixed"]]
@@ -326,7 +327,7 @@ def _variables(node: Node, flat: Node, reader: EventReader, kinds: dict[str, Enu
             variability=variability,
             type=kind,
             enumeration=kinds.get(flat["variable_type_names"].get(name, "")),
-            start=start,
+            start=None if is_open and not is_fixed else start,
             fixed=is_fixed,
             binding=binding,
             min=lowest,
@@ -348,6 +349,13 @@ def _with_value(variable: Variable) -> Variable:
     if variable.binding is not None and variable.binding.is_number:
         return replace(variable, start=variable.binding, binding=None)
     return replace(variable, causality="local")
+
+
+def _has_no_start(node: Node) -> bool:
+    """Whether no start value is declared: rumoca then puts in a zero that stands where the component does."""
+    literal = node["start"] and node["start"].get("Literal")
+    place = node["component_ref"]["span"]
+    return literal is None or (literal["span"]["start"], literal["span"]["end"]) == (place["start"], place["end"])
 
 
 def _guess(start: sympy.Expr | None, reader: EventReader) -> float:

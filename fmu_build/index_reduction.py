@@ -79,7 +79,12 @@ def _is_unknown(name: str, variables: Mapping[str, Variable]) -> bool:
 
 def _demoted(tied: list[str], equations: list[Equation], variables: Mapping[str, Variable]) -> str:
     """The state that the others will give: one that nobody prefers, with a start value that is not fixed."""
-    best = min(tied, key=lambda n: (variables[n].state_select, variables[n].fixed, -tied.index(n)))
+
+    def wanted(name: str) -> tuple[int, bool, bool, int]:
+        v = variables[name]
+        return (v.state_select, v.fixed, v.start is not None, -tied.index(name))
+
+    best = min(tied, key=wanted)
     if variables[best].fixed and not _starts_fit(equations, variables):
         raise BuildError(
             f"{equations[0].origin}: this equation ties the states {', '.join(tied)} to each other, and each has a"

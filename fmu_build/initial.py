@@ -30,6 +30,7 @@ def initialize(system: EquationSystem) -> EquationSystem:
     unknowns = (*system.unknowns, *system.states, *free)
     fixed = [_start(n, system, variables) for n in system.states if variables[n].fixed]
     open_ = [n for n in (*system.states, *free) if not variables[n].fixed]
+    open_.sort(key=lambda n: variables[n].start is None)  # a declared start value is a better guess than zero
     guesses = [_start(name, system, variables) for name in open_]
     equations = _complete([*system.equations, *continuous, *fixed], guesses, unknowns)
     return replace(system, initial_equations=tuple(equations), initial_unknowns=unknowns)

@@ -8,6 +8,8 @@
 #include "loops.h"
 #include "validation.h"
 
+static const double SAME_STATE = 1e-12; /* of its size or nominal value: rounding */
+
 const char *const category_name[N_LOG_CATEGORIES] = {
     [LOG_ERROR] = "logStatusError",
     [LOG_WARNING] = "logStatusWarning",
@@ -82,6 +84,18 @@ void instance_disturb(State *s)
 /* While the caller integrates, and when all is over, truths are held. */
 static bool truths_follow(Phase phase) { return (phase & (INSTANTIATED | INITIALIZING | STEPPING | EVENT_MODE)) != 0; }
 
+/* Whether states are the same but for rounding: Newton's method need not end at the same bits twice. */
+static bool same_states(const double a[], const double b[])
+{
+    for (int i = 0; i < N_STATES; i++) {
+        const double nominal = variable_info[FIRST_STATE + i].nominal;
+        if (!(fabs(a[i] - b[i]) <= SAME_STATE * (nominal + fabs(b[i]))) && memcmp(&a[i], &b[i], sizeof a[i]) != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* Start values may depend on truths, and truths on start values. */
 static bool settle_start(State *s, Message *why)
 {
@@ -93,7 +107,7 @@ static bool settle_start(State *s, Message *why)
         }
         memcpy(before, &s->v.at[FIRST_STATE], N_STATES * sizeof(double));
         model_start(&s->v, s->holds);
-        if (memcmp(before, &s->v.at[FIRST_STATE], N_STATES * sizeof(double)) == 0) {
+        if (same_states(before, &s->v.at[FIRST_STATE])) {
             return true;
         }
     }
