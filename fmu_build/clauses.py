@@ -7,11 +7,13 @@ from typing import Any
 
 import sympy
 
+from .components import elements_for
 from .errors import BuildError
 from .event_expressions import EventReader
 from .expressions import unwrap
 from .ir_equations import Assignment
-from .ir_events import Algorithm, Check, Choice, Reinit, Statement, When, WhenBranch
+from .ir_events import Algorithm, Check, Choice, Reinit, Statement, Together, When, WhenBranch
+from .values import Value, elements
 
 Node = Mapping[str, Any]
 KEYS = {"condition": ("condition", "cond"), "statements": ("equations", "stmts")}  # of equations, of algorithms
@@ -40,8 +42,8 @@ def read_algorithms(sections: Sequence[Node], reader: EventReader) -> tuple[Algo
     """Algorithm sections."""
     return tuple(
         Algorithm(
-            tuple(_statement(node, reader, event_free=False) for node in section["statements"]),
-            tuple(output["name"] for output in section["outputs"]),
+            _statements(section["statements"], reader, event_free=False),
+            tuple(s.name for output in section["outputs"] for s in elements(reader.component(output["name"]))),
             reader.sources.find_place(section["statements"]),
         )
         for section in sections
@@ -58,15 +60,26 @@ def _targets(nodes: Sequence[Node]) -> Iterator[str]:
         tag, body = next(iter(node.items()))
         if tag in {"Assign", "Assignment"}:
             yield _target(body)
+        elif tag == "For":
+            yield from _targets(body["equations"])
         elif tag in {"Conditional", "If", "When"}:
             for _, statements in _conditional_parts(tag, body):
                 yield from _targets(statements)
 
 
 def _target(body: Node) -> str:
+    """The variable that is assigned, without the last subscripts."""
     if "target" in body:
         return _name(body["target"])
     return ".".join(part["ident"] for part in body["comp"]["parts"])
+
+
+def _scalars(body: Node, reader: EventReader) -> Value:
+    """The scalars that are assigned, as symbols: a variable, an element or a part of it, a record."""
+    *parents, last = body["comp"]["parts"] if "comp" in body else [{"ident": _name(body["target"]), "subs": ()}]
+    if any(part["subs"] for part in parents):
+        raise ValueError("an array of components with a part assigned in an algorithm section: not supported")
+    return reader.component(_target(body), last["subs"])
 
 
 def _name(node: Any) -> str:
@@ -93,42 +106,72 @@ def _branch(block: Node, reader: EventReader) -> WhenBranch:
     elements = condition["Array"]["elements"] if "Array" in condition else [condition]
     return WhenBranch(
         tuple(reader.condition(element) for element in elements),
-        tuple(_statement(node, reader, event_free=True) for node in statements),
+        _statements(statements, reader, event_free=True),
         reader.sources.find_place(condition),
     )
 
 
-def _statement(node: Node, reader: EventReader, *, event_free: bool) -> Statement:
+def _statements(nodes: Sequence[Node], reader: EventReader, *, event_free: bool) -> tuple[Statement, ...]:
+    return tuple(s for node in nodes for s in _statement(node, reader, event_free=event_free))
+
+
+def _statement(node: Node, reader: EventReader, *, event_free: bool) -> Sequence[Statement]:
+    """The statement; a loop is unrolled."""
     tag, body = next(iter(node.items()))
-    read = reader.read_event_free if event_free else reader.read
     origin = reader.sources.find_place(node)
-    if tag in {"Assign", "Assignment"}:
-        if tag == "Assignment" and any(part["subs"] for part in body["comp"]["parts"]):
-            raise BuildError(f"{origin}: an element of an array is assigned in an algorithm section: not supported")
-        return Assignment(_target(body), read(body["value"]), origin)
+    try:
+        if tag in {"Assign", "Assignment"}:
+            return [_assignment(body, reader, origin, event_free=event_free)]
+        if tag == "For":
+            return list(_loop(body["indices"], body["equations"], reader, event_free=event_free))
+    except ValueError as error:
+        raise BuildError(f"{origin}: {error}") from None
     if tag == "Reinit":
-        return Reinit(_name(body["state"]), sympy.true, read(body["value"]), origin)
+        states = reader.component(_name(body["state"]))
+        values = elements_for(states, reader.read_event_free(body["value"]))
+        return [Reinit(s.name, sympy.true, value, origin) for s, value in zip(elements(states), values, strict=True)]
     if tag == "Assert":
-        return _assertion(body, reader)
+        return [_assertion(body, reader)]
     if tag == "Terminate":
-        return Check(sympy.true, reader.message(body["message"]), "END", origin)
+        return [Check(sympy.true, reader.message(body["message"]), "END", origin)]
     if tag in {"Conditional", "If"}:
         condition = reader.condition_event_free if event_free else reader.condition
-        return Choice(
-            tuple(
-                (
-                    sympy.true if part is None else condition(part),
-                    tuple(_statement(n, reader, event_free=event_free) for n in statements),
+        return [
+            Choice(
+                tuple(
+                    (
+                        sympy.true if part is None else condition(part),
+                        _statements(statements, reader, event_free=event_free),
+                    )
+                    for part, statements in _conditional_parts(tag, body)
                 )
-                for part, statements in _conditional_parts(tag, body)
             )
-        )
+        ]
     if tag == "When":
-        return When(tuple(_branch(block, reader) for block in body["blocks"]))
+        return [When(tuple(_branch(block, reader) for block in body["blocks"]))]
     raise BuildError(
-        f"{origin}: {tag} in a when-clause or an algorithm section: supported are assignments, if, when, reinit, assert"
-        " and terminate"
+        f"{origin}: {tag} in a when-clause or an algorithm section: supported are assignments, if, for, when, reinit,"
+        " assert and terminate"
     )
+
+
+def _assignment(body: Node, reader: EventReader, origin: str, *, event_free: bool) -> Statement:
+    target = _scalars(body, reader)
+    value = (reader.read_event_free if event_free else reader.read)(body["value"])
+    pairs = zip(elements(target), elements_for(target, value), strict=True)
+    one, *others = (Assignment(scalar.name, part, origin) for scalar, part in pairs)
+    return Together((one, *others)) if others else one
+
+
+def _loop(
+    indices: Sequence[Node], statements: Sequence[Node], reader: EventReader, *, event_free: bool
+) -> Iterator[Statement]:
+    if not indices:
+        yield from _statements(statements, reader, event_free=event_free)
+        return
+    for value in reader.read(indices[0]["range"]):
+        with reader.bound(indices[0]["ident"], value):
+            yield from _loop(indices[1:], statements, reader, event_free=event_free)
 
 
 def _assertion(body: Node, reader: EventReader) -> Check:

@@ -97,6 +97,11 @@ def spread(value: Value, dims: list[int]) -> Value:
     return value
 
 
+def elements_for(target: Value, value: Value) -> list[Value]:
+    """The scalars of ``value``, one for each of ``target``; a scalar counts for every element."""
+    return elements(spread(value, list(target.shape)) if hasattr(target, "shape") else value)
+
+
 def _symbols(name: str, dims: list[int], index: tuple[int, ...] = ()) -> Value:
     if not dims:
         return symbol(f"{name}[{','.join(map(str, index))}]" if index else name)

@@ -19,7 +19,7 @@ import sympy
 from .errors import BuildError
 from .ir import FlatModel
 from .ir_equations import Assignment, Equation, Relation, Variable
-from .ir_events import Algorithm, Alternatives, Check, Choice, DiscreteEquations, Reinit, Statement, When
+from .ir_events import Algorithm, Alternatives, Check, Choice, DiscreteEquations, Reinit, Statement, Together, When
 from .symbols import INITIAL, is_true, pre, symbol, truth
 
 Values = dict[str, sympy.Expr]
@@ -146,8 +146,9 @@ class _Lowering:
         """Statements, one after another; equations hold simultaneously, with what is assigned nowhere in between."""
         for statement in statements:
             known = {} if simultaneous else _symbols(values)
-            if isinstance(statement, Assignment):
-                values[statement.target] = statement.expression.xreplace(known)
+            if isinstance(statement, Assignment | Together):
+                together = statement.assignments if isinstance(statement, Together) else (statement,)
+                values.update({a.target: a.expression.xreplace(known) for a in together})
             elif isinstance(statement, Reinit):
                 state, value = statement.state, statement.value.xreplace(known)
                 self.reinits.append(Reinit(state, guard, value, statement.origin))

@@ -20,7 +20,7 @@ from .ir_equations import Assignment, EnumerationType, Relation
 from .ir_events import Message, Sample
 from .sources import Sources
 from .symbols import INITIAL, TERMINAL, TIME, holds, is_true, pre, reach_time, round_down, symbol, truth
-from .values import Value, each
+from .values import Value, combine, each
 
 COMPARISONS = {"Lt": sympy.Lt, "Le": sympy.Le, "Gt": sympy.Gt, "Ge": sympy.Ge}
 BOOLEAN_OPERATORS = {"And", "Or", "Not", "Eq", "Neq", *RELATIONS}
@@ -66,7 +66,7 @@ class EventReader(ExpressionReader):
         if self._is_boolean(node):
             return truth(self.condition(node))
         if tag == "BuiltinCall" and body["function"] == "Pre":
-            return symbol(pre(self._variable(body["args"][0])))
+            return combine(lambda x: symbol(pre(self._variable_name(x, node))), super().read(body["args"][0]))
         if tag == "BuiltinCall" and body["function"] in {*ROUNDING, *TRUNCATION}:
             return self._rounded(body)
         return super().read(node)
@@ -130,8 +130,8 @@ class EventReader(ExpressionReader):
         tag, body = next(iter(node.items()))
         if tag == "Literal" and "Boolean" in body["value"]:
             return sympy.true if body["value"]["Boolean"] else sympy.false
-        if tag == "VarRef":
-            return self.read(node) > sympy.Float(0.5)
+        if tag in {"VarRef", "Index", "FieldAccess", "FunctionCall"}:
+            return self.read_scalar(node) > sympy.Float(0.5)
         if tag == "If":
             return self._conditional_condition(body)
         if tag == "Binary" and body["op"] in {"Eq", "Neq"}:
@@ -167,7 +167,7 @@ class EventReader(ExpressionReader):
             self.samples.append(Sample(start, interval, self.sources.find_place(body)))
             return is_true(sample_name(len(self.samples) - 1))
         if function in {"Pre", "Edge", "Change"}:
-            name = self._variable(arguments[0])
+            name = self._variable_name(super().read(arguments[0]), arguments[0])
             if function == "Pre":
                 return is_true(pre(name))
             if function == "Change":
@@ -175,9 +175,8 @@ class EventReader(ExpressionReader):
             return sympy.And(is_true(name), sympy.Not(is_true(pre(name))))
         raise self._unsupported({"BuiltinCall": body})
 
-    def _variable(self, node: Mapping[str, Any]) -> str:
-        operand = super().read(node)
-        if not operand.is_Symbol:
+    def _variable_name(self, operand: Value, node: Mapping[str, Any]) -> str:
+        if not (isinstance(operand, sympy.Basic) and operand.is_Symbol):
             place = self.sources.find_place(node)
             raise BuildError(
                 f"{place}: pre(), edge() and change() take a variable: give this expression a name of its own"

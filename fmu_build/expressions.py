@@ -69,6 +69,15 @@ class ExpressionReader:
             self.names, self._event_free = outside
 
     @contextmanager
+    def bound(self, name: str, value: Value) -> Iterator[None]:
+        """What is read is the body of a loop, with its variable at a value."""
+        outside, self.names = self.names, {**self.names, name: value}
+        try:
+            yield
+        finally:
+            self.names = outside
+
+    @contextmanager
     def inside_branch(self) -> Iterator[None]:
         """What is read counts under a condition only, so it cannot be computed ahead."""
         outside, self._shares = self._shares, False
@@ -142,6 +151,11 @@ class ExpressionReader:
             return self.components.value(name)
         except KeyError:
             return symbol(name)  # time
+
+    def component(self, name: str, subscripts: Sequence[Mapping[str, Any]] = ()) -> Value:
+        """A component of the model as symbols, also where the variable of a loop has its name."""
+        value = self.components.value(name)
+        return self._element(value, subscripts) if subscripts else value
 
     def _indexed(self, body: Mapping[str, Any]) -> Value:
         return self._element(self.read(body["base"]), body["subscripts"])

@@ -30,7 +30,7 @@ from .annotations import (
     read_terminals,
 )
 from .clauses import assigned_names, read_algorithms, read_checks, read_whens
-from .components import element_names, spread
+from .components import element_names, elements_for, spread
 from .errors import BuildError
 from .event_expressions import Declared, EventReader, enumeration_types
 from .expressions import unwrap
@@ -88,8 +88,8 @@ def _with_equations(model: FlatModel, flat: Node, reader: EventReader) -> FlatMo
     ]
     equations: list[Equation] = []
     for residual, origin, names in _residuals(flat, reader):
-        if alternatives := _discrete_equation(residual, origin, flat, reader):
-            discrete.append(alternatives)
+        if alternatives := _discrete_equation(residual, origin, flat, reader, names):
+            discrete += alternatives
         else:
             equations += _scalars(residual, origin, reader, names)
     complete = replace(
@@ -162,23 +162,30 @@ def _scalars(residual: dict[str, Any], origin: str, reader: EventReader, names: 
     yield from (Equation(scalar, origin) for scalar in elements(value) if scalar is not None)
 
 
-def _discrete_equation(residual: Node, origin: str, flat: Node, reader: EventReader) -> Alternatives | None:
-    """An equation between discrete variables as the assignments that it may be; None if it is another equation."""
+def _discrete_equation(
+    residual: Node, origin: str, flat: Node, reader: EventReader, names: dict[str, Value]
+) -> list[Alternatives]:
+    """An equation between discrete variables as the assignments that it may be, one for each element of an array;
+    none if it is another equation."""
     body = residual.get("Binary")
-    assigned = assigned_names(flat)
     if body is None or body["op"] != "Sub":
-        return None
+        return []
+    taken = assigned_names(flat) | reader.declared.constant
     options = []
-    for one, other in ((body["lhs"], body["rhs"]), (body["rhs"], body["lhs"])):
-        name = one["VarRef"]["name"]["name"] if "VarRef" in one and not one["VarRef"]["subscripts"] else None
-        if name in reader.declared.discrete and name not in assigned | reader.declared.constant:
-            options.append((name, other))
+    with reader.equation(origin, names), reader.inside_branch():
+        for one, other in ((body["lhs"], body["rhs"]), (body["rhs"], body["lhs"])):
+            target = reader.read(one) if "VarRef" in one else ()
+            known = {s.name if s.is_Symbol else "" for s in elements(target)}
+            if known and known <= reader.declared.discrete and not known & taken:
+                values = elements_for(target, reader.read(other))
+                pairs = zip(elements(target), values, strict=True)
+                options.append([Assignment(s.name, value, origin) for s, value in pairs])
     if options:
-        return Alternatives(tuple(Assignment(name, reader.read(other), origin) for name, other in options))
+        return [Alternatives(alternatives) for alternatives in zip(*options, strict=True)]
     if reader.is_discrete_valued(body["lhs"]):
         text = reader.sources.text(body["span"]) if "span" in body else ""
         raise BuildError(f"{origin}: {text}: an equation between discrete variables must read: name = expression")
-    return None
+    return []
 
 
 def simulate(path: Path, class_name: str) -> Simulation:
@@ -258,7 +265,7 @@ def _is_text(node: Node, flat: Node) -> bool:
 
 def _declared(flat: Node) -> Declared:
     """Which names are discrete, and which are constant."""
-    types, discrete, constant = {}, set(assigned_names(flat)), set()
+    types, discrete, constant, assigned = {}, set(), set(), assigned_names(flat)
     enumerations = enumeration_types(flat)
     for name, node in flat["variables"].items():
         kind = flat["variable_type_names"].get(name, "Real")
@@ -268,7 +275,7 @@ def _declared(flat: Node) -> Declared:
         types.update(dict.fromkeys(names, types[name]))
         if variability in {"Parameter", "Constant"}:
             constant.update(names)
-        if variability == "Discrete" or kind != "Real":
+        if variability == "Discrete" or kind != "Real" or name in assigned:
             discrete.update(names)
     return Declared(types, frozenset(discrete), frozenset(constant), flat["enum_literal_ordinals"])
 

@@ -8,7 +8,7 @@ Conditions in a function are no relations: Modelica makes no events inside funct
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 Node = Mapping[str, Any]
 Names = dict[str, Value]
+MAX_PASSES = 10_000  # of a while
 
 
 def call(reader: ExpressionReader, function: Node, arguments: Sequence[Value]) -> tuple[Value, ...]:
@@ -41,24 +42,50 @@ def call(reader: ExpressionReader, function: Node, arguments: Sequence[Value]) -
     return tuple(names[node["name"]] for node in function["outputs"])
 
 
-def run(reader: ExpressionReader, statements: Iterable[Node], names: Names) -> None:
+def run(reader: ExpressionReader, statements: Sequence[Node], names: Names) -> None:
     """Run statements; they read and write ``names``."""
-    for statement in statements:
+    for index, statement in enumerate(statements):
         tag, body = next(iter(statement.items()))
         if tag == "Assignment":
             value = reader.read(body["value"])
             _assign(reader, names, body["comp"]["parts"], value)
         elif tag == "FunctionCall":
             _assign_outputs(reader, names, body)
+        elif tag == "If" and _returns(body):  # what follows belongs to the branches that do not return
+            _branch(reader, body, names, statements[index + 1 :])
+            return
         elif tag == "If":
-            _branch(reader, body, names)
-        elif tag == "For":
+            _branch(reader, body, names, ())
+        elif tag == "For" and not _returns(body):
             _loop(reader, body["indices"], body["equations"], names)
-        elif tag not in {"Empty", "Return"}:
-            raise ValueError(f"{tag} in an algorithm: not supported; write an assignment, if, or for")
+        elif tag == "While" and not _returns(body):
+            _repeat(reader, body, names)
+        elif tag == "Return":
+            return
+        elif tag != "Empty":
+            raise ValueError(f"{tag} in an algorithm: not supported; write an assignment, if, or for without return")
 
 
-def _loop(reader: ExpressionReader, indices: Sequence[Node], statements: Iterable[Node], names: Names) -> None:
+def _returns(node: Any) -> bool:
+    """Whether there is a return or a break inside."""
+    if isinstance(node, Mapping):
+        return "Return" in node or "Break" in node or any(_returns(part) for part in node.values())
+    return isinstance(node, list) and any(map(_returns, node))
+
+
+def _repeat(reader: ExpressionReader, body: Node, names: Names) -> None:
+    """A while, of which it must be known here how often it is passed through."""
+    for _ in range(MAX_PASSES):
+        truth = reader.condition(body["cond"])
+        if truth == sympy.false:
+            return
+        if truth != sympy.true:
+            break
+        run(reader, body["stmts"], names)
+    raise ValueError("a while whose number of passes is not known when the unit is built: write a for")
+
+
+def _loop(reader: ExpressionReader, indices: Sequence[Node], statements: Sequence[Node], names: Names) -> None:
     if not indices:
         run(reader, statements, names)
         return
@@ -72,8 +99,9 @@ def _loop(reader: ExpressionReader, indices: Sequence[Node], statements: Iterabl
         names[name] = outside
 
 
-def _branch(reader: ExpressionReader, body: Node, names: Names) -> None:
-    """Every branch starts from the same values; where they differ afterwards, the value is a conditional."""
+def _branch(reader: ExpressionReader, body: Node, names: Names, rest: Sequence[Node]) -> None:
+    """Every branch, and the ``rest`` behind it, starts from the same values; where they differ afterwards, the value
+    is a conditional."""
     before = dict(names)
     results: list[tuple[Names, Any]] = []
     otherwise = [(True, body["else_block"] or [])]
@@ -84,10 +112,10 @@ def _branch(reader: ExpressionReader, body: Node, names: Names) -> None:
         names.clear()
         names.update(before)
         if truth == sympy.true:
-            run(reader, statements, names)
+            run(reader, [*statements, *rest], names)
         else:
             with reader.inside_branch():
-                run(reader, statements, names)
+                run(reader, [*statements, *rest], names)
         results.append((dict(names), truth))
         if truth == sympy.true:
             break

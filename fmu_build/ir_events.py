@@ -45,6 +45,13 @@ class Reinit:
 
 
 @dataclass(frozen=True)
+class Together:
+    """The elements of an array, assigned at once: each value is that before the statement."""
+
+    assignments: tuple[Assignment, ...]
+
+
+@dataclass(frozen=True)
 class Choice:
     """Statements under conditions; the last condition may be true. With several that hold the first one counts."""
 
@@ -76,7 +83,7 @@ class Algorithm:
     origin: str
 
 
-Statement = Assignment | Reinit | Check | Choice | When
+Statement = Assignment | Together | Reinit | Check | Choice | When
 
 
 @dataclass(frozen=True)
