@@ -115,6 +115,9 @@ ARRAY: Mapping[str, Callable[..., Value]] = {
     "Homotopy": lambda actual, simplified: actual,
 }
 
+# Functions whose last arguments are sizes, with the place of the first one.
+SIZES: Mapping[str, int] = {"Fill": 1, "Zeros": 0, "Ones": 0, "Identity": 0, "Linspace": 2}
+
 
 def _only(found: list[Value]) -> Value:
     if len(found) != 1:

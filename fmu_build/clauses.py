@@ -76,7 +76,9 @@ def _target(body: Node) -> str:
 
 def _scalars(body: Node, reader: EventReader) -> Value:
     """The scalars that are assigned, as symbols: a variable, an element or a part of it, a record."""
-    *parents, last = body["comp"]["parts"] if "comp" in body else [{"ident": _name(body["target"]), "subs": ()}]
+    if "target" in body:
+        return reader.component(_target(body))
+    *parents, last = body["comp"]["parts"]
     if any(part["subs"] for part in parents):
         raise ValueError("an array of components with a part assigned in an algorithm section: not supported")
     return reader.component(_target(body), last["subs"])
@@ -103,9 +105,8 @@ def _conditional_parts(tag: str, body: Node) -> list[tuple[Any, Sequence[Node]]]
 def _branch(block: Node, reader: EventReader) -> WhenBranch:
     condition = next(block[key] for key in KEYS["condition"] if key in block)
     statements = next(block[key] for key in KEYS["statements"] if key in block)
-    elements = condition["Array"]["elements"] if "Array" in condition else [condition]
     return WhenBranch(
-        tuple(reader.condition(element) for element in elements),
+        tuple(reader.conditions(condition)),
         _statements(statements, reader, event_free=True),
         reader.sources.find_place(condition),
     )

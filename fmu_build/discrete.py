@@ -37,6 +37,9 @@ def lower(model: FlatModel) -> FlatModel:
         work.run(algorithm)
     work.assignments += model.rounded
     work.resolve(model.discrete)
+    for v in model.variables:
+        if v.variability == "discrete" and v.causality != "input" and v.name not in work.assigned:
+            raise BuildError(f"{v.origin}: no equation determines {v.name}")
     initial = [equation for algorithm in model.initial_algorithms for equation in work.start(algorithm)]
     samples = [Variable(f"sample[{i + 1}]", type="Boolean", variability="discrete") for i in range(len(model.samples))]
     rounded = [Variable(a.target, type="Integer", variability="discrete") for a in model.rounded]

@@ -228,7 +228,10 @@ def _choose_states(
         occurring = [names[s] for s in symbols if s in names]
         if not occurring or symbols & derivatives or not set(occurring) <= set(states):
             continue
-        candidates = sorted(occurring, key=lambda n: (variables[n].state_select, n in fixed, variables[n].start is not None, -algebraics.index(n)))
+        candidates = sorted(
+            occurring,
+            key=lambda n: (variables[n].state_select, n in fixed, variables[n].start is not None, -algebraics.index(n)),
+        )
         demoted = next((n for n in candidates if not equation.residual.diff(symbol(n)).has(symbol(n))), None)
         if demoted is None:
             raise BuildError(

@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 import sympy
 from sympy.logic.boolalg import Boolean
 
@@ -20,11 +21,12 @@ from .ir_equations import Assignment, EnumerationType, Relation
 from .ir_events import Message, Sample
 from .sources import Sources
 from .symbols import INITIAL, TERMINAL, TIME, holds, is_true, pre, reach_time, round_down, symbol, truth
-from .values import Value, combine, each
+from .values import Value, combine, each, elements
 
 COMPARISONS = {"Lt": sympy.Lt, "Le": sympy.Le, "Gt": sympy.Gt, "Ge": sympy.Ge}
 BOOLEAN_OPERATORS = {"And", "Or", "Not", "Eq", "Neq", *RELATIONS}
 BOOLEAN_CALLS = {"Edge", "Change", "Initial", "Terminal", "Sample"}
+NAMED = {"VarRef", "Index", "FieldAccess", "FunctionCall"}  # expressions whose type their names tell
 ROUNDING: Mapping[str, Callable[..., sympy.Expr]] = {  # in terms of rounding down
     "Floor": lambda down, x: down(x),
     "Integer": lambda down, x: down(x),
@@ -57,6 +59,11 @@ class EventReader(ExpressionReader):
         self.declared = declared
         self.samples: list[Sample] = []
         self.rounded: list[Assignment] = []
+        self._texts = {
+            name: node["binding"]
+            for name, node in flat["variables"].items()
+            if declared.types.get(name) == "String" and node["binding"] is not None
+        }
 
     def read(self, node: Mapping[str, Any]) -> Value:
         """A value; true is 1 and false 0."""
@@ -79,6 +86,15 @@ class EventReader(ExpressionReader):
         """A Boolean expression."""
         return self._condition(node)
 
+    def conditions(self, node: Mapping[str, Any]) -> list[Boolean]:
+        """The elements of a Boolean vector, or a single one."""
+        tag, body = next(iter(node.items()))
+        if tag == "Array":
+            return [condition for element in body["elements"] for condition in self.conditions(element)]
+        if tag in NAMED and isinstance(found := self.read(node), np.ndarray):
+            return [element > sympy.Float(0.5) for element in elements(found)]
+        return [self.condition(node)]
+
     def condition_event_free(self, node: Mapping[str, Any]) -> Boolean:
         """A Boolean expression that is evaluated at events alone."""
         outside, self._event_free = self._event_free, True
@@ -92,12 +108,15 @@ class EventReader(ExpressionReader):
         tag, body = next(iter(node.items()))
         if tag == "Literal" and "String" in body["value"]:
             return Message(str(body["value"]["String"]).replace("%", "%%"))
+        if tag == "VarRef" and body["name"]["name"] in self._texts:
+            return self.message(self._texts[body["name"]["name"]])
         if tag == "StringConversion":
             return Message("%s", ((self.read_event_free(body["value"]), self._type(body["value"])),))
         if tag == "Binary" and body["op"] == "Add":
             left, right = self.message(body["lhs"]), self.message(body["rhs"])
             return Message(left.format + right.format, (*left.values, *right.values))
-        raise BuildError(f"{self.sources.find_place(node)}: only texts and String(scalar), joined by +, are supported")
+        place = self.sources.find_place(node)
+        raise BuildError(f"{place}: only texts, String parameters and String(scalar), joined by +, are supported")
 
     def is_discrete_valued(self, node: Mapping[str, Any]) -> bool:
         """Whether the value is a Boolean, an Integer or an enumeration's."""
@@ -130,7 +149,7 @@ class EventReader(ExpressionReader):
         tag, body = next(iter(node.items()))
         if tag == "Literal" and "Boolean" in body["value"]:
             return sympy.true if body["value"]["Boolean"] else sympy.false
-        if tag in {"VarRef", "Index", "FieldAccess", "FunctionCall"}:
+        if tag in NAMED:
             return self.read_scalar(node) > sympy.Float(0.5)
         if tag == "If":
             return self._conditional_condition(body)

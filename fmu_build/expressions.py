@@ -10,14 +10,14 @@ import numpy as np
 import sympy
 from sympy.logic.boolalg import Boolean
 
-from .builtin import ARRAY, BINARY, SCALAR
+from .builtin import ARRAY, BINARY, SCALAR, SIZES
 from .choices import CHOICES
 from .components import Components
 from .errors import BuildError
 from .functions import call
 from .ir_equations import Assignment, Relation
 from .sources import Sources
-from .symbols import der, holds, symbol
+from .symbols import der, holds, no_number, symbol
 from .values import ONE, ZERO, Value, array, combine, concatenate, each, field, full
 
 RELATIONS = {"Lt": "<", "Le": "<=", "Gt": ">", "Ge": ">="}
@@ -166,7 +166,29 @@ class ExpressionReader:
     def _element(self, value: Value, subscripts: Sequence[Mapping[str, Any]]) -> Value:
         if not isinstance(value, np.ndarray):
             raise ValueError("a subscript of what is no array")
+        for axis, subscript in enumerate(subscripts):
+            if (moving := self._moving(subscript)) is not None:
+                return self._chosen(value, subscripts, axis, moving)
         return value[self.indices(subscripts, value.shape)]
+
+    def _moving(self, subscript: Mapping[str, Any]) -> sympy.Expr | None:
+        """The subscript if it changes in time."""
+        value = self.read(subscript["Expr"]["expr"]) if "Expr" in subscript else None
+        if not isinstance(value, sympy.Basic) or self.components.number(value).is_number:
+            return None
+        return value
+
+    def _chosen(self, value: Value, subscripts: Sequence[Mapping[str, Any]], axis: int, moving: sympy.Expr) -> Value:
+        """The element that ``moving`` has the number of at the time; outside the array nothing, which is no number."""
+        options = []
+        for number in range(1, value.shape[axis] + 1):
+            fixed = {"Index": {"value": number}}
+            options.append(self._element(value, [*subscripts[:axis], fixed, *subscripts[axis + 1 :]]))
+        truths = [sympy.Eq(moving, number) for number in range(1, len(options) + 1)]
+        return combine(
+            lambda *scalars: sympy.Piecewise(*zip(scalars, truths, strict=True), (no_number(), True), evaluate=False),
+            *options,
+        )
 
     def indices(self, subscripts: Sequence[Mapping[str, Any]], shape: tuple[int, ...]) -> tuple[Any, ...]:
         """Subscripts as indices of a NumPy array, from zero; several vectors count independently of each other."""
@@ -280,6 +302,8 @@ class ExpressionReader:
         if function not in SCALAR and function not in ARRAY and function not in CHOICES:
             raise self._unsupported({"BuiltinCall": body})
         values = [self.read(argument) for argument in arguments]
+        if (first := SIZES.get(function)) is not None:
+            values[first:] = [self.components.structure(size) for size in values[first:]]
         if function in SCALAR:
             return each(SCALAR[function], *values)
         if function in ARRAY:

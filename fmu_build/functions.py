@@ -76,12 +76,12 @@ def _returns(node: Any) -> bool:
 def _repeat(reader: ExpressionReader, body: Node, names: Names) -> None:
     """A while, of which it must be known here how often it is passed through."""
     for _ in range(MAX_PASSES):
-        truth = reader.condition(body["cond"])
+        truth = reader.condition(body["block"]["cond"])
         if truth == sympy.false:
             return
         if truth != sympy.true:
             break
-        run(reader, body["stmts"], names)
+        run(reader, body["block"]["stmts"], names)
     raise ValueError("a while whose number of passes is not known when the unit is built: write a for")
 
 

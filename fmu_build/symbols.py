@@ -50,6 +50,14 @@ def truth(condition: sympy.Expr) -> sympy.Expr:
     return sympy.Piecewise((sympy.Integer(1), condition), (sympy.Integer(0), True), evaluate=False)
 
 
+class no_number(sympy.Function):  # type: ignore[misc]
+    """What there is where an array has no element: NaN. SymPy's own NaN refuses to be compared."""
+
+    nargs = 0
+    is_real = True
+    is_number = False
+
+
 class round_down(sympy.Function):  # type: ignore[misc]
     """The largest integer not above its argument, whose derivative is 0 wherever it has one."""
 

@@ -10,6 +10,11 @@ static const double LAST_STEP = 1e-9;
 static const double SHORTEST_DAMPING = 1e-9;
 enum { MAX_STEPS = 200 };
 
+/* Where the first search begins, in nominal values from the start values, if these lead nowhere: often the slopes are
+ * zero there, as those of x^2 = 1 are at 0. */
+static const double OFFSETS[] = {0.0, 1.0, -1.0, 0.1, -0.1, 10.0, -10.0};
+enum { N_OFFSETS = sizeof OFFSETS / sizeof OFFSETS[0] };
+
 /* A pivot below this share of its row's largest element is rounding. */
 static const double SINGULAR = 4.0 * DBL_EPSILON;
 
@@ -222,25 +227,41 @@ static bool newton(const Loop *loop, Variables *v, const bool holds[], double wo
     return false;
 }
 
+static bool search(const Loop *loop, Variables *v, const bool holds[], double work[], unsigned pivots[])
+{
+    if (!newton(loop, v, holds, work, pivots)) {
+        return false;
+    }
+    for (unsigned i = 0; i < loop->n_iterated; i++) {
+        v->at[loop->guesses[i]] = v->at[loop->unknowns[i]];
+    }
+    return true;
+}
+
 void loop_solve(const Loop *loop, Variables *v, const bool holds[], double work[], unsigned pivots[])
 {
     if (loop->linear) {
         solve_linear(loop, v, holds, work, pivots);
         return;
     }
-    for (int attempt = 0; attempt < 2; attempt++) {
-        for (unsigned i = 0; i < loop->n_iterated; i++) {
-            const unsigned guess = loop->guesses[i];
-            v->at[loop->unknowns[i]] = attempt == 0 ? v->at[guess] : variable_info[guess].start;
-        }
-        if (newton(loop, v, holds, work, pivots)) {
-            for (unsigned i = 0; i < loop->n_iterated; i++) {
-                v->at[loop->guesses[i]] = v->at[loop->unknowns[i]];
-            }
-            return;
-        }
+    bool is_first = true;
+    for (unsigned i = 0; i < loop->n_iterated; i++) {
+        const unsigned guess = loop->guesses[i];
+        is_first = is_first && v->at[guess] == variable_info[guess].start;
+        v->at[loop->unknowns[i]] = v->at[guess];
     }
-    fill(loop, v, (double)NAN);
+    bool found = search(loop, v, holds, work, pivots);
+    for (int attempt = is_first ? 1 : 0; !found && attempt < (is_first ? N_OFFSETS : 1); attempt++) {
+        for (unsigned i = 0; i < loop->n_iterated; i++) {
+            const unsigned u = loop->unknowns[i];
+            const double share = OFFSETS[attempt] * (1.0 + (double)i / loop->n_iterated); /* no two the same */
+            v->at[u] = variable_info[loop->guesses[i]].start + share * variable_info[u].nominal;
+        }
+        found = search(loop, v, holds, work, pivots);
+    }
+    if (!found) {
+        fill(loop, v, (double)NAN);
+    }
 }
 
 #if N_LOOPS > 0

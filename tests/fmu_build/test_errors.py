@@ -47,10 +47,15 @@ BROKEN = {
         "M.mo:",
         "write its algorithm in Modelica",
     ),
-    "subscript that changes": (
-        "model M\n  parameter Real a[2] = {1, 2};\n  Integer i = integer(time) + 1;\n  Real x = a[i];\nend M;",
+    "range that changes": (
+        "model M\n  parameter Real a[3] = {1, 2, 3};\n  Integer i = integer(time) + 1;\n  Real x = sum(a[1:i]);\nend M;",
         "M.mo:4",
         "changes in time",
+    ),
+    "discrete variable without an equation": (
+        "model M\n  Boolean b;\n  Integer n(start=0);\nequation\n  when b then\n    n = pre(n) + 1;\n  end when;\nend M;",
+        "M.mo:2",
+        "no equation determines b",
     ),
     "edge of an expression": (
         "model M\n  Boolean b;\n  Integer n(start=0);\nequation\n  b = time>1;\n  when edge(not b) then\n    n=1;\n"
