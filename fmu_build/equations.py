@@ -14,7 +14,7 @@ from dataclasses import replace
 import sympy
 
 from .errors import BuildError
-from .index_reduction import reduce_index
+from .index_reduction import reduce_index, varies
 from .ir import EquationSystem, FlatModel
 from .ir_equations import Assignment, Equation, Relation, Variable
 from .ir_events import DiscreteEquations
@@ -56,7 +56,8 @@ def derive(model: FlatModel) -> EquationSystem:
         if variables[n].fixed and (start := variables[n].start) is not None and symbol(der(n)) not in before
     ]  # fixed start values of what is no state
     chosen, reduced, starts, differentiated = _choose_states(reduced, algebraics, variables)
-    states, reduced = reduce_index(reduced, differentiated, chosen, variables)
+    index_one = reduce_index(reduced, differentiated, chosen, variables)
+    states, reduced = index_one.states, index_one.equations
     occurring, state_names = _symbols(reduced), set(states)
     derivatives = [name for name in (der(n) for n in algebraics) if symbol(name) in occurring]
     initial = substitute((*model.initial_equations, *given), replacements)
@@ -65,6 +66,7 @@ def derive(model: FlatModel) -> EquationSystem:
     return EquationSystem(
         model=model,
         states=tuple(states),
+        invariants=tuple(index_one.invariants),
         inputs=inputs,
         unknowns=unknowns,
         equations=tuple(reduced),
@@ -232,12 +234,9 @@ def _choose_states(
             occurring,
             key=lambda n: (variables[n].state_select, n in fixed, variables[n].start is not None, -algebraics.index(n)),
         )
-        demoted = next((n for n in candidates if not equation.residual.diff(symbol(n)).has(symbol(n))), None)
+        demoted = next((n for n in candidates if not varies(equation.residual.diff(symbol(n)), variables)), None)
         if demoted is None:
-            raise BuildError(
-                f"{equation.origin}: this constraint is not linear in any of the states {', '.join(candidates)} that it"
-                " ties: index reduction is not supported; take coordinates that need no constraint"
-            )
+            continue  # reduce_index() keeps all of them
         if demoted in fixed:
             free = next((n for n in reversed(candidates) if n not in fixed), None)
             starts[_required(free, equation, candidates)] = _start_from_others(equation, str(free), starts)

@@ -1,12 +1,16 @@
-"""Constraints among states that other equations hide, such as a gear between two inertias.
+"""Constraints among states that other equations hide, such as a gear between two inertias or a rod of fixed length.
 
-The equations that leave one of them without an unknown (Pantelides 1988) are differentiated, and one of the states in
-them is computed from the others from then on. Which one is decided here once and for all.
+The equations that leave one of them without an unknown (Pantelides 1988) are differentiated. Where one of the states in
+them follows from the others by a constant factor, it is computed from them from then on. Where none does, as in
+``x^2 + y^2 = L^2``, any choice would fail somewhere: all remain states, the constraint g is imposed at the start, and
+afterwards only its n-th derivative, with the others as a correction of what rounding and integration do to it
+(Baumgarte 1972): the sum over k of binomial(n, k) w^(n - k) g^(k) is zero, and so is g, if it was at the start.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 
 import networkx as nx
 import sympy
@@ -16,6 +20,16 @@ from .ir_equations import Equation, Variable
 from .symbols import TIME, der, symbol
 
 MAX_ROUNDS = 200
+CORRECTION = 10  # w in 1/s: errors of a constraint fade within some tenths of a second
+
+
+@dataclass(frozen=True)
+class Reduced:
+    """States, equations as many as unknowns, and what else holds at the start."""
+
+    states: list[str]
+    equations: list[Equation]
+    invariants: list[Equation]
 
 
 def reduce_index(
@@ -23,17 +37,18 @@ def reduce_index(
     differentiated: Iterable[Equation],
     states: Sequence[str],
     variables: Mapping[str, Variable],
-) -> tuple[list[str], list[Equation]]:
-    """The states that are left, and the equations with derivatives of those that tie them; BuildError if that fails.
+) -> Reduced:
+    """The equations with derivatives of those that tie the states; BuildError if that fails.
 
     The derivatives of the equations ``differentiated`` are among the equations already.
     """
     result, remaining = list(equations), list(states)
     done = {result.index(equation) for equation in differentiated}
+    chains: dict[int, list[sympy.Expr]] = {}  # of constraints that only hold by their derivatives: what these are of
     for _ in range(MAX_ROUNDS):
         singular = _singular_set(result, set(remaining), variables)
         if singular is None:
-            return remaining, result
+            return _corrected(result, remaining, chains)
         first = result[singular[0]]
         tied = [n for n in remaining if any(symbol(n) in result[i].residual.free_symbols for i in singular)]
         if not tied or done >= set(singular):
@@ -41,11 +56,30 @@ def reduce_index(
                 f"{first.origin}: this equation determines nothing that is not determined already"
                 " (one equation too many, or a constraint that takes more than differentiating equations)"
             )
-        remaining.remove(_demoted(tied, [result[i] for i in singular], variables))
-        new = [result[i] for i in singular if i not in done]
-        result += [Equation(_total_derivative(equation, variables), equation.origin) for equation in new]
-        done |= set(singular)
+        demoted = None if chains.keys() & set(singular) else _demoted(tied, [result[i] for i in singular], variables)
+        kept = next((i for i in singular if i in chains), singular[0]) if demoted is None else None
+        for i in singular:
+            derivative = Equation(_total_derivative(result[i], variables), result[i].origin)
+            if i == kept:
+                chains.setdefault(i, []).append(result[i].residual)
+                result[i] = derivative
+            elif i not in done:
+                result.append(derivative)
+                done.add(i)
+        if demoted is not None:
+            remaining.remove(demoted)
     raise BuildError(f"{first.origin}: this constraint takes too many differentiations: index reduction gives up here")
+
+
+def _corrected(equations: list[Equation], states: list[str], chains: Mapping[int, list[sympy.Expr]]) -> Reduced:
+    invariants = []
+    for index, chain in chains.items():
+        origin = equations[index].origin
+        invariants += [Equation(residual, origin) for residual in chain]
+        n = len(chain)
+        corrections = [sympy.binomial(n, k) * CORRECTION ** (n - k) * residual for k, residual in enumerate(chain)]
+        equations[index] = Equation(sympy.Add(equations[index].residual, *corrections), origin)
+    return Reduced(states, equations, invariants)
 
 
 def _singular_set(equations: list[Equation], states: set[str], variables: Mapping[str, Variable]) -> list[int] | None:
@@ -77,20 +111,30 @@ def _is_unknown(name: str, variables: Mapping[str, Variable]) -> bool:
     return name in variables and variables[name].variability == "continuous" and variables[name].causality != "input"
 
 
-def _demoted(tied: list[str], equations: list[Equation], variables: Mapping[str, Variable]) -> str:
-    """The state that the others will give: one that nobody prefers, with a start value that is not fixed."""
+def _demoted(tied: list[str], equations: list[Equation], variables: Mapping[str, Variable]) -> str | None:
+    """The state that the others will give: one that nobody prefers, with a start value that is not fixed; None where
+    none follows from the others by constant factors."""
+    factors = {n: [e.residual.diff(symbol(n)) for e in equations] for n in tied}
+    solvable = [n for n in tied if not any(varies(factor, variables) for factor in factors[n])]
+    if not solvable:
+        return None
 
     def wanted(name: str) -> tuple[int, bool, bool, int]:
         v = variables[name]
         return (v.state_select, v.fixed, v.start is not None, -tied.index(name))
 
-    best = min(tied, key=wanted)
+    best = min(solvable, key=wanted)
     if variables[best].fixed and not _starts_fit(equations, variables):
         raise BuildError(
             f"{equations[0].origin}: this equation ties the states {', '.join(tied)} to each other, and each has a"
             " fixed start value: drop fixed=true from the one that follows from the others"
         )
     return best
+
+
+def varies(factor: sympy.Expr, variables: Mapping[str, Variable]) -> bool:
+    """Whether it changes in time."""
+    return any(s.name == TIME or _is_unknown(s.name, variables) for s in factor.free_symbols)
 
 
 def _starts_fit(equations: list[Equation], variables: Mapping[str, Variable]) -> bool:

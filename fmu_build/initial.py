@@ -15,7 +15,10 @@ import sympy
 from .errors import BuildError
 from .ir import EquationSystem
 from .ir_equations import Assignment, Equation, Variable
+from .start_point import free_coordinates, value_at_start
 from .symbols import pre, symbol
+
+TOLERANCE = 1e-6  # of a constraint that fixed start values should meet
 
 
 def initialize(system: EquationSystem) -> EquationSystem:
@@ -25,15 +28,30 @@ def initialize(system: EquationSystem) -> EquationSystem:
     discrete, continuous = _split(system, variables)
     before = {a.target: a for a in (*system.starts_before, *discrete.values())}
     system = replace(system, starts_before=tuple(before.values()), free_parameters=free)
-    if not continuous and not free:
+    if not continuous and not free and not system.invariants:
         return replace(system, initial_equations=())
     unknowns = (*system.unknowns, *system.states, *free)
     fixed = [_start(n, system, variables) for n in system.states if variables[n].fixed]
     open_ = [n for n in (*system.states, *free) if not variables[n].fixed]
     open_.sort(key=lambda n: variables[n].start is None)  # a declared start value is a better guess than zero
+    required = [*system.equations, *continuous, *fixed]
+    if system.invariants:
+        open_ = free_coordinates(open_, [*required, *system.invariants], unknowns, system)
     guesses = [_start(name, system, variables) for name in open_]
-    equations = _complete([*system.equations, *continuous, *fixed], guesses, unknowns)
+    equations = _complete(required, [*system.invariants, *guesses], unknowns)
+    _refuse_contradictions([e for e in system.invariants if e not in equations], system)
     return replace(system, initial_equations=tuple(equations), initial_unknowns=unknowns)
+
+
+def _refuse_contradictions(dropped: list[Equation], system: EquationSystem) -> None:
+    """Constraints for which fixed start values leave nothing to determine must be true with them."""
+    for equation in dropped:
+        error = value_at_start(equation.residual, system)
+        if error is not None and abs(error) > TOLERANCE:
+            raise BuildError(
+                f"{equation.origin}: the fixed start values contradict this equation, by {error:g}: drop fixed=true from"
+                " the one that follows from the others"
+            )
 
 
 def _is_free(variable: Variable) -> bool:

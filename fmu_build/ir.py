@@ -128,6 +128,7 @@ class EquationSystem:
     initial_unknowns: tuple[str, ...] = ()  # with as many initial_equations, once they are complete
     starts_before: tuple[Assignment, ...] = ()  # of discrete variables: their values before the start
     free_parameters: tuple[str, ...] = ()  # which initial equations determine
+    invariants: tuple[Equation, ...] = ()  # of the states, true for all times if at the start
 
 
 @dataclass(frozen=True)
