@@ -49,8 +49,8 @@ def _refuse_contradictions(dropped: list[Equation], system: EquationSystem) -> N
         error = value_at_start(equation.residual, system)
         if error is not None and abs(error) > TOLERANCE:
             raise BuildError(
-                f"{equation.origin}: the fixed start values contradict this equation, by {error:g}: drop fixed=true from"
-                " the one that follows from the others"
+                f"{equation.origin}: the fixed start values contradict this equation, by {error:g}: drop fixed=true"
+                " from the one that follows from the others"
             )
 
 
