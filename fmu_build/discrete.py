@@ -16,6 +16,7 @@ from dataclasses import replace
 import networkx as nx
 import sympy
 
+from .conditions import insert
 from .errors import BuildError
 from .ir import FlatModel
 from .ir_equations import Assignment, Equation, Relation, Variable
@@ -126,7 +127,7 @@ class _Lowering:
         excluded: list[sympy.Expr] = []
         for branch in when.branches:
             fires = sympy.Or(
-                *(self._becomes_true(c.xreplace(_symbols(values)), branch.origin) for c in branch.conditions)
+                *(self._becomes_true(insert(c, _symbols(values)), branch.origin) for c in branch.conditions)
             )
             active = self._flag("fires", sympy.And(fires, *excluded), branch.origin)
             excluded.append(sympy.Not(fires))
@@ -151,12 +152,12 @@ class _Lowering:
             known = {} if simultaneous else _symbols(values)
             if isinstance(statement, Assignment | Together):
                 together = statement.assignments if isinstance(statement, Together) else (statement,)
-                values.update({a.target: a.expression.xreplace(known) for a in together})
+                values.update({a.target: insert(a.expression, known) for a in together})
             elif isinstance(statement, Reinit):
-                state, value = statement.state, statement.value.xreplace(known)
+                state, value = statement.state, insert(statement.value, known)
                 self.reinits.append(Reinit(state, guard, value, statement.origin))
             elif isinstance(statement, Check):
-                violated = sympy.And(guard, statement.violated.xreplace(known))
+                violated = sympy.And(guard, insert(statement.violated, known))
                 self.checks.append(replace(statement, violated=violated))
             elif isinstance(statement, When):
                 values.update(self.when(statement, values))
@@ -169,7 +170,7 @@ class _Lowering:
         for condition, statements in choice.branches:
             known = {} if simultaneous else _symbols(values)
             self._settle_relations(condition, known)
-            chosen = condition.xreplace(known)
+            chosen = insert(condition, known)
             result = dict(values)
             self._execute(statements, result, sympy.And(guard, chosen, *excluded), simultaneous=simultaneous)
             excluded.append(sympy.Not(chosen))
@@ -184,7 +185,7 @@ class _Lowering:
         """A relation in an algorithm compares what has been assigned so far."""
         for index, relation in enumerate(self.relations):
             if sympy.Symbol(f"holds[{index}]") in condition.free_symbols:
-                self.relations[index] = replace(relation, residual=relation.residual.xreplace(known))
+                self.relations[index] = replace(relation, residual=insert(relation.residual, known))
 
     def _before(self, name: str) -> sympy.Expr:
         variable = self.declared.get(name)

@@ -15,6 +15,7 @@ import numpy as np
 import sympy
 from sympy.logic.boolalg import Boolean
 
+from .conditions import compare
 from .errors import BuildError
 from .expressions import RELATIONS, ExpressionReader
 from .ir_equations import Assignment, EnumerationType, Relation
@@ -26,6 +27,7 @@ from .values import Value, combine, each, elements
 COMPARISONS = {"Lt": sympy.Lt, "Le": sympy.Le, "Gt": sympy.Gt, "Ge": sympy.Ge}
 BOOLEAN_OPERATORS = {"And", "Or", "Not", "Eq", "Neq", *RELATIONS}
 BOOLEAN_CALLS = {"Edge", "Change", "Initial", "Terminal", "Sample"}
+HALF = sympy.Float(0.5)  # a Boolean value above it is true
 NAMED = {"VarRef", "Index", "FieldAccess", "FunctionCall"}  # expressions whose type their names tell
 ROUNDING: Mapping[str, Callable[..., sympy.Expr]] = {  # in terms of rounding down
     "Floor": lambda down, x: down(x),
@@ -92,7 +94,7 @@ class EventReader(ExpressionReader):
         if tag == "Array":
             return [condition for element in body["elements"] for condition in self.conditions(element)]
         if tag in NAMED and isinstance(found := self.read(node), np.ndarray):
-            return [element > sympy.Float(0.5) for element in elements(found)]
+            return [compare(sympy.Gt, element, HALF) for element in elements(found)]
         return [self.condition(node)]
 
     def condition_event_free(self, node: Mapping[str, Any]) -> Boolean:
@@ -150,7 +152,7 @@ class EventReader(ExpressionReader):
         if tag == "Literal" and "Boolean" in body["value"]:
             return sympy.true if body["value"]["Boolean"] else sympy.false
         if tag in NAMED:
-            return self.read_scalar(node) > sympy.Float(0.5)
+            return compare(sympy.Gt, self.read_scalar(node), HALF)
         if tag == "If":
             return self._conditional_condition(body)
         if tag == "Binary" and body["op"] in {"Eq", "Neq"}:
@@ -171,7 +173,7 @@ class EventReader(ExpressionReader):
         if self._type(left) == "Boolean" or self._type(right) == "Boolean":
             a, b = self._condition(left), self._condition(right)
             return sympy.Or(sympy.And(a, b), sympy.And(sympy.Not(a), sympy.Not(b)))
-        return sympy.Eq(self.read(left), self.read(right))
+        return compare(sympy.Eq, self.read_scalar(left), self.read_scalar(right))
 
     def _call_condition(self, body: Mapping[str, Any]) -> Boolean:
         function, arguments = body["function"], body["args"]
@@ -216,7 +218,7 @@ class EventReader(ExpressionReader):
         left, right = self.read(body["lhs"]), self.read(body["rhs"])
         symbols = {s.name for s in (left - right).free_symbols}
         if not symbols <= self.declared.constant and self._changes_at_events_alone(left - right):
-            return COMPARISONS[body["op"]](left, right)
+            return compare(COMPARISONS[body["op"]], left, right)
         if TIME in symbols and not self._event_free and (line := self._line(left - right)) is not None:
             rest, slope = line
             before = self._before(-rest / slope, self.sources.text(body["span"]), self.sources.place(body["span"]))
@@ -248,7 +250,9 @@ class EventReader(ExpressionReader):
             return sympy.Integer(int(x))
         is_discrete = self._event_free or self._changes_at_events_alone(x)
         text, origin = self.sources.text(body["span"]), self.sources.find_place(body)
-        negative = -x > 0 if is_discrete else self._is_below(x, sympy.Integer(0), text, origin)
+        negative = (
+            compare(sympy.Lt, x, sympy.Integer(0)) if is_discrete else self._is_below(x, sympy.Integer(0), text, origin)
+        )
         pairs = [(-self._down(-x, body), negative), (self._down(x, body), True)]
         return sympy.Piecewise(*pairs, evaluate=False)
 

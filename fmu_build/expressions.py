@@ -13,6 +13,7 @@ from sympy.logic.boolalg import Boolean
 from .builtin import ARRAY, BINARY, SCALAR, SIZES
 from .choices import CHOICES
 from .components import Components
+from .conditions import compare
 from .errors import BuildError
 from .functions import call
 from .ir_equations import Assignment, Relation
@@ -184,7 +185,7 @@ class ExpressionReader:
         for number in range(1, value.shape[axis] + 1):
             fixed = {"Index": {"value": number}}
             options.append(self._element(value, [*subscripts[:axis], fixed, *subscripts[axis + 1 :]]))
-        truths = [sympy.Eq(moving, number) for number in range(1, len(options) + 1)]
+        truths = [compare(sympy.Eq, moving, sympy.Integer(number)) for number in range(1, len(options) + 1)]
         return combine(
             lambda *scalars: sympy.Piecewise(*zip(scalars, truths, strict=True), (no_number(), True), evaluate=False),
             *options,
@@ -382,7 +383,7 @@ class ExpressionReader:
     def _holds(self, residual: sympy.Expr, text: str, origin: str) -> Boolean:
         """Whether the residual is positive: what it was at the last event, or, within noEvent(), what it is."""
         if self._event_free or residual.is_number:
-            return residual > 0
+            return compare(sympy.Gt, residual, ZERO)
         self.relations.append(Relation(residual, text, origin))
         return holds(len(self.relations) - 1)
 
