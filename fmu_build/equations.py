@@ -139,11 +139,15 @@ def _with_starts_of_aliases(variables: tuple[Variable, ...], aliases: Names) -> 
     """The variables; one that stands for others has the start value of the first of them that has one, best a fixed
     one, where its own is none, or not fixed."""
     starts: dict[str, Variable] = {}
+
+    def weight(v: Variable, root: str) -> tuple[bool, bool, bool]:
+        return v.fixed, not v.has_start_of_type, v.name == root
+
     for v in variables:
         root = aliases.get(v.name, v.name)
         best = starts.get(root)
         own = v.start is not None and v.variability == "continuous"
-        if own and (best is None or (v.fixed, v.name == root) > (best.fixed, best.name == root)):
+        if own and (best is None or weight(v, root) > weight(best, root)):
             starts[root] = v
     return tuple(
         replace(v, start=giver.start, fixed=giver.fixed, guess=giver.guess)

@@ -286,9 +286,11 @@ def sample_name(index: int) -> str:
 
 
 def enumeration_types(flat: Mapping[str, Any]) -> dict[str, EnumerationType]:
-    """The enumerations of a flat model by the name of the type."""
+    """The enumerations of a flat model by the name of the type, as variables bear it: whole, or its last parts."""
     literals: dict[str, dict[int, str]] = {}
     for full_name, number in flat["enum_literal_ordinals"].items():
         name, _, literal = full_name.rpartition(".")
         literals.setdefault(name, {}).setdefault(number, literal.strip("'"))
-    return {name: EnumerationType(name, tuple(by[i] for i in sorted(by))) for name, by in literals.items()}
+    types = {name: EnumerationType(name, tuple(by[i] for i in sorted(by))) for name, by in literals.items()}
+    borne = set(flat["variable_type_names"].values()) - types.keys()
+    return types | {kind: types[name] for kind in borne for name in types if name.endswith(f".{kind}")}

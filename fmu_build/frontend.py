@@ -310,6 +310,7 @@ def _variables(node: Node, flat: Node, reader: EventReader, kinds: dict[str, Enu
 
     names = element_names(name, dims) if dims else [name]
     is_open = variability == "continuous" and _has_no_start(node)
+    is_of_type = any(reader.sources.is_in_type(span) for span in _spans(node["start"]))
     is_top_level = "." not in name
     causality = unwrap(node["causality"]).lower()
     given = node["fixed"] if isinstance(node["fixed"], list) else [node["fixed"]]
@@ -335,6 +336,7 @@ def _variables(node: Node, flat: Node, reader: EventReader, kinds: dict[str, Enu
             type=kind,
             enumeration=kinds.get(flat["variable_type_names"].get(name, "")),
             start=None if is_open and not is_fixed else start,
+            has_start_of_type=is_of_type,
             fixed=is_fixed,
             binding=binding,
             min=lowest,
@@ -356,6 +358,12 @@ def _with_value(variable: Variable) -> Variable:
     if variable.binding is not None and variable.binding.is_number:
         return replace(variable, start=variable.binding, binding=None)
     return replace(variable, causality="local")
+
+
+def _spans(node: Any) -> list[dict[str, int]]:
+    """The place of an expression, as far as it is known."""
+    body = next(iter(node.values())) if node else {}
+    return [body["span"]] if "span" in body else []
 
 
 def _has_no_start(node: Node) -> bool:

@@ -30,6 +30,7 @@ class Variable:
     type: str = "Real"  # Real, Integer, Boolean, Enumeration
     enumeration: EnumerationType | None = None
     start: sympy.Expr | None = None
+    has_start_of_type: bool = False  # its type declares the start value: others of an alias count more
     fixed: bool = False
     binding: sympy.Expr | None = None
     min: float | None = None

@@ -154,8 +154,9 @@ class Schedule:
     time_events: tuple[str, ...] = ()  # variables: the times
     checks: tuple[ScheduledCheck, ...] = ()
     n_event_checks: int = 0  # of the checks, the first ones
+    asks_phase: bool = False  # whether initial() or terminal() is asked for
 
     @property
     def is_empty(self) -> bool:
         """Whether there is nothing but relations."""
-        return not (self.assignments or self.check_assignments or self.memories)
+        return not (self.assignments or self.check_assignments or self.memories or self.asks_phase)

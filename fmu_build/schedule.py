@@ -13,7 +13,7 @@ from .ir import EquationSystem
 from .ir_equations import Assignment, Block, Relation, Variable
 from .ir_events import Memory, Schedule, ScheduledCheck, ScheduledReinit, ScheduledSample
 from .slices import reaching
-from .symbols import TIME, pre, symbol, time_left, truth
+from .symbols import INITIAL, TERMINAL, TIME, pre, symbol, time_left, truth
 
 
 @dataclass(frozen=True)
@@ -63,6 +63,7 @@ def schedule(system: EquationSystem, continuous: Sequence[Block]) -> Scheduled:
             time_events=tuple(named),
             checks=tuple(checks),
             n_event_checks=events.n_event_checks,
+            asks_phase=any(symbol(flag) in block.arguments for block in continuous for flag in (INITIAL, TERMINAL)),
         ),
         variables=tuple(
             Variable(name, type="Real", variability="discrete", hidden=True, origin=a.origin)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -29,6 +30,12 @@ class Sources:
         """The Modelica text of a span, on one line."""
         _, text = self._files.get(span["source"], ("", ""))
         return " ".join(text.encode()[span["start"] : span["end"]].decode().split())
+
+    def is_in_type(self, span: Mapping[str, int]) -> bool:
+        """Whether the span is part of the definition of a type, such as ``type Angle = Real(start=1)``."""
+        _, text = self._files.get(span["source"], ("", ""))
+        statement = text.encode()[: span["start"]].decode().rpartition(";")[2]
+        return re.search(r"\btype\s+\w+\s*=", statement) is not None
 
     def find_place(self, node: Any) -> str:
         """The place of the outermost span inside ``node``."""
