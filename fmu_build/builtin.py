@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 import sympy
 
+from .symbols import power
 from .values import (
     ONE,
     ZERO,
@@ -24,8 +25,8 @@ from .values import (
     elements,
     full,
     identity,
+    matrix_power,
     multiply,
-    power,
     skew,
     sum_of,
 )
@@ -53,9 +54,10 @@ def _same(operation: Callable[[sympy.Expr, sympy.Expr], sympy.Expr]) -> Callable
     return lambda a, b: combine(operation, a, b)
 
 
-def _element_power(a: sympy.Expr, b: sympy.Expr) -> sympy.Expr:
-    """Integers as exponents are printed as products, so make them of 2.0 as well."""
-    return a ** sympy.Integer(int(b)) if b.is_Float and float(b).is_integer() else a**b
+def _scalar(exponent: Value) -> sympy.Expr:
+    if isinstance(exponent, np.ndarray):
+        raise ValueError("an array as exponent: write .^ for element by element")
+    return exponent
 
 
 BINARY: Mapping[str, Callable[[Value, Value], Value]] = {
@@ -63,12 +65,12 @@ BINARY: Mapping[str, Callable[[Value, Value], Value]] = {
     "Sub": _same(lambda a, b: a - b),
     "Mul": multiply,
     "Div": divide,
-    "Exp": lambda a, b: power(a, b) if isinstance(a, np.ndarray) else _element_power(a, b),
+    "Exp": lambda a, b: matrix_power(a, b) if isinstance(a, np.ndarray) else power(a, _scalar(b)),
     "AddElem": lambda a, b: each(lambda x, y: x + y, a, b),
     "SubElem": lambda a, b: each(lambda x, y: x - y, a, b),
     "MulElem": lambda a, b: each(lambda x, y: x * y, a, b),
     "DivElem": lambda a, b: each(lambda x, y: x / y, a, b),
-    "ExpElem": lambda a, b: each(_element_power, a, b),
+    "ExpElem": lambda a, b: each(power, a, b),
 }
 
 

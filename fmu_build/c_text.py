@@ -11,7 +11,7 @@ from sympy.printing.c import C11CodePrinter
 
 from .c_loops import name_of
 from .ir_equations import Block, Loop
-from .symbols import no_number, reach_time, round_down, time_left
+from .symbols import no_number, power, reach_time, round_down, time_left
 
 C_KEYWORDS = frozenset(C11CodePrinter.reserved_words) | {"inline", "restrict", "bool", "true", "false", "at"}
 
@@ -73,6 +73,10 @@ class Printer(C11CodePrinter):  # type: ignore[misc]
 
     def _print_NumberSymbol(self, expr: sympy.NumberSymbol) -> str:
         return repr(float(expr))
+
+    def _print_power(self, expr: power) -> str:
+        base, exponent = (self._print(argument) for argument in expr.args)
+        return f"pow({base}, {exponent})"
 
     def _print_no_number(self, expr: no_number) -> str:
         return "(double)NAN"

@@ -50,6 +50,28 @@ def truth(condition: sympy.Expr) -> sympy.Expr:
     return sympy.Piecewise((sympy.Integer(1), condition), (sympy.Integer(0), True), evaluate=False)
 
 
+class power(sympy.Function):  # type: ignore[misc]
+    """``x^n`` with an exponent that is a parameter: arguments (x, n). SymPy's derivative, n x^n / x, fails at zero."""
+
+    nargs = 2
+    is_real = True
+
+    @classmethod
+    def eval(cls, base: sympy.Expr, exponent: sympy.Expr) -> sympy.Expr | None:
+        """SymPy's own, where the exponent is a number; one like 2.0 as an integer, which is printed as products."""
+        if not exponent.is_number:
+            return None
+        is_integer = exponent.is_Float and float(exponent).is_integer()
+        return base ** (sympy.Integer(int(exponent)) if is_integer else exponent)
+
+    def fdiff(self, argindex: int = 1) -> sympy.Expr:
+        """n x^(n - 1), or x^n log(x)"""
+        base, exponent = self.args
+        if argindex == 1:
+            return exponent * power(base, exponent - 1)
+        return no_number() if base.is_negative else self * sympy.log(base)
+
+
 class no_number(sympy.Function):  # type: ignore[misc]
     """What there is where an array has no element: NaN. SymPy's own NaN refuses to be compared."""
 

@@ -73,12 +73,8 @@ def divide(a: Value, b: Value) -> Value:
     return each(lambda x: x / b, a)
 
 
-def power(a: Value, b: Value) -> Value:
-    """``a^b``: of a scalar, or of a square matrix with a number."""
-    if isinstance(b, np.ndarray):
-        raise ValueError("an array as exponent: write .^ for element by element")
-    if not isinstance(a, np.ndarray):
-        return a**b
+def matrix_power(a: Array, b: Value) -> Value:
+    """``a^b`` of a square matrix with a number."""
     if a.ndim != 2 or a.shape[0] != a.shape[1] or not b.is_Integer or b < 0:
         raise ValueError("only a square matrix has powers, with natural numbers: write .^ for element by element")
     result: Value = identity(a.shape[0])
