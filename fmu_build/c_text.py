@@ -126,7 +126,7 @@ def local_name(name: str) -> str:
 
 def function(signature: str, lines: list[str]) -> str:
     """A C function; parameters that its lines do not use are marked so."""
-    body = re.sub(r"/\*.*?\*/", "", "\n".join(lines))  # a comment may have a variable of the same name
+    body = re.sub(r"/\*.*?\*/|->\w+", "", "\n".join(lines))  # comments and fields may have the same name
     arguments = re.findall(r"(\w+)(?:\[\])?[,)]", signature)
     unused = [f"(void){a};" for a in arguments if not re.search(rf"\b{a}\b", body)]
     text = "\n".join(f"    {line}" for line in [*unused, *lines])

@@ -111,8 +111,9 @@ def fmi_headers() -> Path:
 def compile_library(folder: Path, library: Path, platform: Platform) -> None:
     """Compile the C files of ``folder`` (model, runtime and facade) to the shared library ``library``.
 
-    The bytes depend on the sources, the platform and the compiler alone: names of files given to the compiler are
-    relative to ``folder``. What a linker leaves beside the library (import library, debug symbols) is dropped.
+    The bytes depend on the sources, the platform, the compiler and, for this machine, the environment variable CFLAGS
+    alone: names of files given to the compiler are relative to ``folder``. What a linker leaves beside the library
+    (import library, debug symbols) is dropped.
     """
     sources = sorted(file.name for file in folder.glob("*.c"))
     with tempfile.TemporaryDirectory(prefix="fmu_build-cache-") as cache:
@@ -133,7 +134,7 @@ def compile_library(folder: Path, library: Path, platform: Platform) -> None:
 def _command(platform: Platform, library: str) -> list[str]:
     install_name = [f"-Wl,-install_name,@rpath/{library}"] if platform.suffix == ".dylib" else []
     if platform.zig_target is None:
-        return [*compiler(), *OPTIONS, *install_name]
+        return [*compiler(), *OPTIONS, *os.environ.get("CFLAGS", "").split(), *install_name]
     zig = zig_compiler()
     if zig is None:
         raise BuildError(f"platform {platform.name}: the package ziglang, which compiles for it, is not installed")

@@ -19,7 +19,7 @@ from .ir import EquationSystem, FlatModel
 from .ir_equations import Assignment, Equation, Relation, Variable
 from .ir_events import DiscreteEquations
 from .substitution import substitute
-from .symbols import TIME, der, holds, pre, symbol
+from .symbols import TIME, der, derivative_of, holds, pre, symbol
 
 Names = dict[str, str]
 
@@ -57,11 +57,12 @@ def derive(model: FlatModel) -> EquationSystem:
     ]  # fixed start values of what is no state
     chosen, reduced, starts, differentiated = _choose_states(reduced, algebraics, variables)
     index_one = reduce_index(reduced, differentiated, chosen, variables)
+    given += index_one.given
     states, reduced = index_one.states, index_one.equations
     occurring, state_names = _symbols(reduced), set(states)
     derivatives = [name for name in (der(n) for n in algebraics) if symbol(name) in occurring]
     initial = substitute((*model.initial_equations, *given), replacements)
-    derivatives += sorted(s.name for s in occurring if s.name.startswith("der(der("))
+    derivatives += sorted(s.name for s in occurring if derivative_of(s.name)[1] > 1)
     unknowns = (*derivatives, *(n for n in algebraics if n not in state_names))
     return EquationSystem(
         model=model,

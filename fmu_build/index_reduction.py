@@ -17,9 +17,11 @@ import sympy
 
 from .errors import BuildError
 from .ir_equations import Equation, Variable
-from .symbols import TIME, der, symbol
+from .start_point import value_at_start
+from .symbols import TIME, der, derivative_of, symbol
 
 MAX_ROUNDS = 200
+TOLERANCE = 1e-9
 CORRECTION = 10  # w in 1/s: errors of a constraint fade within some tenths of a second
 
 
@@ -30,6 +32,7 @@ class Reduced:
     states: list[str]
     equations: list[Equation]
     invariants: list[Equation]
+    given: list[Equation]  # fixed start values of what is no state any more
 
 
 def reduce_index(
@@ -44,11 +47,12 @@ def reduce_index(
     """
     result, remaining = list(equations), list(states)
     done = {result.index(equation) for equation in differentiated}
+    given: list[Equation] = []
     chains: dict[int, list[sympy.Expr]] = {}  # of constraints that only hold by their derivatives: what these are of
     for _ in range(MAX_ROUNDS):
         singular = _singular_set(result, set(remaining), variables)
         if singular is None:
-            return _corrected(result, remaining, chains)
+            return _corrected(result, remaining, chains, given)
         first = result[singular[0]]
         tied = [n for n in remaining if any(symbol(n) in result[i].residual.free_symbols for i in singular)]
         if not tied or done >= set(singular):
@@ -68,10 +72,13 @@ def reduce_index(
                 done.add(i)
         if demoted is not None:
             remaining.remove(demoted)
+            given += _given(variables[demoted], [result[i] for i in singular], variables)
     raise BuildError(f"{first.origin}: this constraint takes too many differentiations: index reduction gives up here")
 
 
-def _corrected(equations: list[Equation], states: list[str], chains: Mapping[int, list[sympy.Expr]]) -> Reduced:
+def _corrected(
+    equations: list[Equation], states: list[str], chains: Mapping[int, list[sympy.Expr]], given: list[Equation]
+) -> Reduced:
     invariants = []
     for index, chain in chains.items():
         origin = equations[index].origin
@@ -79,7 +86,7 @@ def _corrected(equations: list[Equation], states: list[str], chains: Mapping[int
         n = len(chain)
         corrections = [sympy.binomial(n, k) * CORRECTION ** (n - k) * residual for k, residual in enumerate(chain)]
         equations[index] = Equation(sympy.Add(equations[index].residual, *corrections), origin)
-    return Reduced(states, equations, invariants)
+    return Reduced(states, equations, invariants, given)
 
 
 def _singular_set(equations: list[Equation], states: set[str], variables: Mapping[str, Variable]) -> list[int] | None:
@@ -106,9 +113,8 @@ def _singular_set(equations: list[Equation], states: set[str], variables: Mappin
 
 
 def _is_unknown(name: str, variables: Mapping[str, Variable]) -> bool:
-    while name.startswith("der("):
-        name = name[4:-1]
-    return name in variables and variables[name].variability == "continuous" and variables[name].causality != "input"
+    variable = variables.get(derivative_of(name)[0])
+    return variable is not None and variable.variability == "continuous" and variable.causality != "input"
 
 
 def _demoted(tied: list[str], equations: list[Equation], variables: Mapping[str, Variable]) -> str | None:
@@ -123,13 +129,15 @@ def _demoted(tied: list[str], equations: list[Equation], variables: Mapping[str,
         v = variables[name]
         return (v.state_select, v.fixed, v.start is not None, -tied.index(name))
 
-    best = min(solvable, key=wanted)
-    if variables[best].fixed and not _starts_fit(equations, variables):
-        raise BuildError(
-            f"{equations[0].origin}: this equation ties the states {', '.join(tied)} to each other, and each has a"
-            " fixed start value: drop fixed=true from the one that follows from the others"
-        )
-    return best
+    return min(solvable, key=wanted)
+
+
+def _given(demoted: Variable, equations: list[Equation], variables: Mapping[str, Variable]) -> list[Equation]:
+    """What a fixed start value says of the states that are left; nothing where it follows from theirs."""
+    if not demoted.fixed or _starts_fit(equations, variables):
+        return []
+    start = sympy.Integer(0) if demoted.start is None else demoted.start
+    return [Equation(symbol(demoted.name) - start, demoted.origin)]
 
 
 def varies(factor: sympy.Expr, variables: Mapping[str, Variable]) -> bool:
@@ -139,14 +147,8 @@ def varies(factor: sympy.Expr, variables: Mapping[str, Variable]) -> bool:
 
 def _starts_fit(equations: list[Equation], variables: Mapping[str, Variable]) -> bool:
     """Whether all are true with the start values as they are, as where all are zero."""
-    for equation in equations:
-        symbols = equation.residual.free_symbols
-        value = equation.residual.xreplace(
-            {s: sympy.Float(variables[s.name].guess) for s in symbols if s.name in variables}
-        )
-        if value.is_number and abs(value) > 1e-9:
-            return False
-    return True
+    values = [value_at_start(equation.residual, variables.values()) for equation in equations]
+    return all(value is not None and abs(value) < TOLERANCE for value in values)
 
 
 def _total_derivative(equation: Equation, variables: Mapping[str, Variable]) -> sympy.Expr:

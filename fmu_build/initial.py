@@ -36,7 +36,7 @@ def initialize(system: EquationSystem) -> EquationSystem:
     open_.sort(key=lambda n: variables[n].start is None)  # a declared start value is a better guess than zero
     required = [*system.equations, *continuous, *fixed]
     if system.invariants:
-        open_ = free_coordinates(open_, [*required, *system.invariants], unknowns, system)
+        open_ = free_coordinates(open_, [*required, *system.invariants], unknowns, variables)
     guesses = [_start(name, system, variables) for name in open_]
     equations = _complete(required, [*system.invariants, *guesses], unknowns)
     _refuse_contradictions([e for e in system.invariants if e not in equations], system)
@@ -46,7 +46,7 @@ def initialize(system: EquationSystem) -> EquationSystem:
 def _refuse_contradictions(dropped: list[Equation], system: EquationSystem) -> None:
     """Constraints for which fixed start values leave nothing to determine must be true with them."""
     for equation in dropped:
-        error = value_at_start(equation.residual, system)
+        error = value_at_start(equation.residual, system.model.variables)
         if error is not None and abs(error) > TOLERANCE:
             raise BuildError(
                 f"{equation.origin}: the fixed start values contradict this equation, by {error:g}: drop fixed=true"

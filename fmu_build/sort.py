@@ -19,7 +19,7 @@ from .ir_equations import Assignment, Block, Equation, Loop, Relation, Variable
 from .loops import guess_variables, make_loop, rest, slope
 from .schedule import Scheduled, schedule
 from .slices import reaching
-from .symbols import INITIAL, TERMINAL, relation_name, symbol
+from .symbols import INITIAL, TERMINAL, der, derivative_of, relation_name, symbol
 from .units import per_second
 
 
@@ -109,9 +109,10 @@ def _parameter_assignments(system: EquationSystem) -> tuple[Assignment, ...]:
 
 def _with_derivatives(system: EquationSystem) -> dict[str, Variable]:
     variables = {v.name: v for v in system.model.variables}
-    for unknown in sorted(system.unknowns, key=lambda name: name.count("der(")):
+    for unknown in sorted(system.unknowns, key=lambda name: derivative_of(name)[1]):
         if unknown not in variables:
-            of = variables[unknown.removeprefix("der(").removesuffix(")")]
+            base, order = derivative_of(unknown)
+            of = variables[base if order == 1 else f"der({base},{order - 1})" if order > 2 else der(base)]
             variables[unknown] = Variable(
                 unknown, f"Time derivative of {of.name}", per_second(of.unit), hidden=of.hidden
             )

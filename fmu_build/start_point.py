@@ -6,36 +6,34 @@ level, ``x^2 + y^2 = L^2`` gives x from y, and not y from x.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 import sympy
 from numpy.typing import NDArray
 from scipy.linalg import qr
 
-from .ir import EquationSystem
-from .ir_equations import Equation
+from .ir_equations import Equation, Variable
 from .symbols import symbol
 
 RANK = 1e-9  # singular values below this share of the largest are zero
 UNDECLARED = 0.1  # weight of a state without a start value: such a one should rather follow from the others
 
 
-def value_at_start(expression: sympy.Expr, system: EquationSystem) -> float | None:
+def value_at_start(expression: sympy.Expr, variables: Iterable[Variable]) -> float | None:
     """The value with all start values and parameters as declared; None where it contains anything else."""
-    value = expression.xreplace(_point(system))
+    value = expression.xreplace(_point(variables))
     return float(value) if value.is_number and value.is_finite else None
 
 
 def free_coordinates(
-    states: Sequence[str], equations: Sequence[Equation], unknowns: Sequence[str], system: EquationSystem
+    states: Sequence[str], equations: Sequence[Equation], unknowns: Sequence[str], variables: Mapping[str, Variable]
 ) -> list[str]:
     """The states, first those that the equations leave free at the start, best determined by their slopes there."""
-    known = {v.name: v for v in system.model.variables}
-    slopes = _slopes(equations, unknowns, _point(system))
+    slopes = _slopes(equations, unknowns, _point(variables.values()))
     _, singular_values, directions = np.linalg.svd(slopes)
     rank = int((singular_values > RANK * singular_values.max(initial=0.0)).sum())
-    weights = [1.0 if known[name].start is not None else UNDECLARED for name in states]
+    weights = [1.0 if variables[name].start is not None else UNDECLARED for name in states]
     motions = directions[rank:, [list(unknowns).index(name) for name in states]] * weights
     if motions.size == 0:
         return list(states)
@@ -56,14 +54,16 @@ def _slopes(
     return slopes
 
 
-def _point(system: EquationSystem) -> dict[sympy.Symbol, sympy.Expr]:
+def _point(variables: Iterable[Variable]) -> dict[sympy.Symbol, sympy.Expr]:
     """Start values of variables, and values of parameters."""
-    point = {symbol(v.name): sympy.Float(v.guess) for v in system.model.variables if v.variability == "continuous"}
-    for v in system.model.variables:
-        if v.variability == "parameter":
+    point: dict[sympy.Symbol, sympy.Expr] = {}
+    for v in variables:
+        if v.variability == "continuous":
+            point[symbol(v.name)] = sympy.Float(v.guess)
+        elif v.variability == "parameter":
             value = v.start if v.binding is None else v.binding
             point[symbol(v.name)] = sympy.Integer(0) if value is None else value
-    for _ in system.model.variables:  # parameters that depend on others
+    for _ in point:  # parameters that depend on others
         if all(value.is_number for value in point.values()):
             break
         point = {name: value.xreplace(point) for name, value in point.items()}

@@ -8,6 +8,8 @@ the number of its literal, from 1.
 
 from __future__ import annotations
 
+import re
+
 import sympy
 
 TIME = "time"
@@ -21,8 +23,16 @@ def symbol(name: str) -> sympy.Symbol:
 
 
 def der(name: str) -> str:
-    """Name of the time derivative of ``name``, as FMI's structured naming convention writes it."""
-    return f"der({name})"
+    """Name of the time derivative of ``name``, as FMI's structured naming convention writes it: ``der(x)``, of that
+    ``der(x,2)``."""
+    base, order = derivative_of(name)
+    return f"der({base},{order + 1})" if order else f"der({name})"
+
+
+def derivative_of(name: str) -> tuple[str, int]:
+    """The variable that ``name`` is a time derivative of, and how often it has been differentiated."""
+    found = re.fullmatch(r"der\((.*?)(?:,(\d+))?\)", name)
+    return (found.group(1), int(found.group(2) or 1)) if found else (name, 0)
 
 
 def pre(name: str) -> str:

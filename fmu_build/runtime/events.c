@@ -130,15 +130,15 @@ static bool turns(const double before[], const double z[], const double behind[]
 static int samples_of(const Rodas *r, Variables *v, const bool holds[])
 {
     double z[3][AT_LEAST_ONE(N_RELATIONS)];
-    int samples = SAMPLES;
-    for (int i = 0; i <= samples && samples < MOST_SAMPLES; i++) {
-        (void)changed_at(r, (double)i / (double)samples, v, holds, z[i % 3]);
+    int count = SAMPLES;
+    for (int i = 0; i <= count && count < MOST_SAMPLES; i++) {
+        (void)changed_at(r, (double)i / (double)count, v, holds, z[i % 3]);
         if (i > 1 && turns(z[(i - 2) % 3], z[(i - 1) % 3], z[i % 3])) {
-            samples *= 2;
+            count *= 2;
             i = -1;
         }
     }
-    return samples;
+    return count;
 }
 #else
 static int samples_of(const Rodas *r, Variables *v, const bool holds[])
@@ -157,9 +157,9 @@ bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving,
     if (N_RELATIONS == 0) {
         return false;
     }
-    const double samples = samples_of(r, v, holds);
-    while (!changed_at(r, sample / samples, v, holds, z)) {
-        if (sample == samples) {
+    const double count = samples_of(r, v, holds);
+    while (!changed_at(r, sample / count, v, holds, z)) {
+        if (sample == count) {
             return false;
         }
         sample++;
@@ -168,7 +168,7 @@ bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving,
         event->fraction = 0.0;
         return true;
     }
-    event->fraction = bisect(r, (sample - 1) / samples, sample / samples, v, holds);
+    event->fraction = bisect(r, (sample - 1) / count, sample / count, v, holds);
     (void)changed_at(r, event->fraction, v, holds, z);
     take_truths(z, holds, event->truths);
     return true;

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import ctypes
+import hashlib
+import os
+import re
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
+import locket
 import numpy as np
 import pytest
+from fmpy.validation import validate_fmu
 
 from fmu_build.c_elimination import print_elimination
 from fmu_build.c_model import print_c
@@ -20,10 +25,37 @@ from fmu_build.frontend import flatten
 from fmu_build.initial import initialize
 from fmu_build.ir import SortedModel
 from fmu_build.jacobian import differentiate
+from fmu_build.pipeline import build
 from fmu_build.slices import start_value
 from fmu_build.sort import sort
 
 Writer = Callable[[str], Path]
+Build = Callable[[str, int], Path]
+
+
+@pytest.fixture(scope="session")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Build:
+    """The FMU of a Modelica text (its last class) in a version of FMI, built once, whichever process asks first.
+
+    Compilers take most of the time of these tests: what they optimize is left to the other tests.
+    """
+    own = tmp_path_factory.getbasetemp()
+    shared = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
+
+    def get(text: str, fmi: int) -> Path:
+        name = re.findall(r"^(?:model|block|package) (\w+)", text, re.MULTILINE)[-1]
+        folder = shared / f"{name}-{fmi}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
+        folder.mkdir(exist_ok=True)
+        output = folder / f"{name}.fmu"
+        with locket.lock_file(str(folder / "lock")), pytest.MonkeyPatch.context() as patch:
+            if not output.exists():
+                patch.setenv("CFLAGS", "-O0 -Werror")
+                (folder / f"{name}.mo").write_text(text, encoding="utf-8")
+                build(folder / f"{name}.mo", name, output, fmi)
+                assert validate_fmu(str(output)) == []
+        return output
+
+    return get
 
 
 @pytest.fixture

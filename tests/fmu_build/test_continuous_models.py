@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
-from fmu_build.pipeline import build
+from tests.fmu_build.conftest import Build
 
 Columns = Mapping[str, NDArray[np.float64]]
 
@@ -339,13 +339,11 @@ def simulated_by_rumoca(path: Path, times: NDArray[np.float64]) -> Columns:
 
 @pytest.mark.parametrize("fmi", [2, 3])
 @pytest.mark.parametrize("name", CASES)
-def test_a_model_against_an_independent_solution(name: str, fmi: int, tmp_path: Path) -> None:
+def test_a_model_against_an_independent_solution(name: str, fmi: int, built: Build) -> None:
     case = CASES[name]
-    (tmp_path / "M.mo").write_text(case.text, encoding="utf-8")
-    fmu = tmp_path / "M.fmu"
-    build(tmp_path / "M.mo", "M", fmu, fmi)
+    fmu = built(case.text, fmi)
     times = np.linspace(0, case.stop, 21)
-    expected = case.expected(times) if case.expected else simulated_by_rumoca(tmp_path / "M.mo", times)
+    expected = case.expected(times) if case.expected else simulated_by_rumoca(fmu.with_suffix(".mo"), times)
     for kind, tolerance in (("CoSimulation", 1e-9), ("ModelExchange", case.model_exchange)):
         result = fmpy.simulate_fmu(
             str(fmu),

@@ -2,40 +2,16 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import fmpy
 import numpy as np
 import pytest
-from fmpy.validation import validate_fmu
 
-from fmu_build.pipeline import build
+from tests.fmu_build.conftest import Build
 
-Build = Callable[[str, int], Path]
 WAYS = [(2, "CoSimulation"), (2, "ModelExchange"), (3, "CoSimulation"), (3, "ModelExchange")]
-
-
-@pytest.fixture(scope="session")
-def built(tmp_path_factory: pytest.TempPathFactory) -> Build:
-    """The FMU of a Modelica text (its last class) in a version of FMI."""
-    done: dict[tuple[str, int], Path] = {}
-
-    def get(text: str, fmi: int) -> Path:
-        if (text, fmi) not in done:
-            name = re.findall(r"^(?:model|block|package) (\w+)", text, re.MULTILINE)[-1]
-            folder = tmp_path_factory.mktemp(name)
-            (folder / f"{name}.mo").write_text(text, encoding="utf-8")
-            output = folder / f"{name}.fmu"
-            build(folder / f"{name}.mo", name, output, fmi)
-            assert validate_fmu(str(output)) == []
-            done[text, fmi] = output
-        return done[text, fmi]
-
-    return get
 
 
 @dataclass
