@@ -1,14 +1,12 @@
-"""Modelica text to a FlatModel. Every touch of rumoca is in this module.
+"""Modelica text to a FlatModel. Every touch of rumoca is in this module and in loading.py.
 
 rumoca (pinned exactly, see docs/dependencies.md) parses, resolves, checks and flattens. We read its flat form, a JSON
-tree. Two of its habits are handled here: many of its errors carry no place, so we look the offending name up in the
-sources; and it reads every .mo file beside the one it is given, as Modelica's directory rules allow.
+tree.
 """
 
 from __future__ import annotations
 
 import itertools
-import re
 from collections.abc import Iterator
 from dataclasses import replace
 from importlib.metadata import version
@@ -37,6 +35,7 @@ from .expressions import unwrap
 from .ir import FlatModel, Simulation
 from .ir_equations import Assignment, EnumerationType, Equation, Variable
 from .ir_events import Alternatives
+from .loading import load
 from .sources import Sources
 from .symbols import symbol
 from .values import Value, elements
@@ -51,7 +50,7 @@ def flatten(path: Path, class_name: str) -> FlatModel:
 
     Raises BuildError, with file and line, where the Modelica does not compile or uses what is not supported.
     """
-    model, sources = _load(path, class_name)
+    model, sources = load(path, class_name)
     flat = model.to_dict("flat")
     declared = _declared(flat)
     fixed = _fixed(flat)
@@ -193,7 +192,7 @@ def simulate(path: Path, class_name: str) -> Simulation:
 
     Raises BuildError where it does not compile, does not run, or has no experiment annotation.
     """
-    model, sources = _load(path, class_name)
+    model, sources = load(path, class_name)
     experiment = read_experiment(class_text(class_name, sources.texts()))
     if experiment.stop_time is None or experiment.interval is None:
         raise BuildError(
@@ -225,23 +224,6 @@ def _columns(model: rumoca.Model, times: NDArray[np.float64], tolerance: float) 
     if np.abs(np.asarray(result.time)[rows] - times).max() > 1e-9 * (times[-1] - times[0]):
         raise BuildError(f"{model.name}: its simulation ended early, at {result.time[-1]:g} s")
     return {name: np.asarray(result[name])[rows] for name in result.names}
-
-
-def _load(path: Path, class_name: str) -> tuple[rumoca.Model, Sources]:
-    """The compiled class and its Modelica text."""
-    entry = path / "package.mo" if path.is_dir() else path
-    if not entry.is_file():
-        raise BuildError(f"{entry}: no such Modelica file; give a .mo file or a library's folder with its package.mo")
-    try:
-        model = rumoca.Session().load(str(entry), model=class_name)
-        files = model.to_dict("dae")["source_map"]["files"]
-    except rumoca.RumocaError as error:
-        raise BuildError(_located_message(error, entry, class_name)) from None
-    except BaseException as error:  # what rumoca throws when it runs into a mistake of its own is no Exception
-        if type(error).__name__ != "PanicException":
-            raise
-        raise BuildError(f"{entry}: {class_name}: rumoca failed in it: {error}") from None
-    return model, Sources({file_id: (name, text) for file_id, name, text in files}, root=entry.parent)
 
 
 def _fixed(flat: Node) -> frozenset[str]:
@@ -392,25 +374,3 @@ def _equation_origin(node: dict[str, Any], sources: Sources) -> str:
     if kind == "FlowSum":
         return str(detail["description"])
     return sources.place(node["span"])
-
-
-def _located_message(error: Exception, entry: Path, class_name: str) -> str:
-    """One line with file and line for a rumoca error."""
-    first_line = str(error).splitlines()[0]
-    message = re.sub(r"^\S+ could not be compiled: |^\w+ failed: \S+ failed in \w+: ", "", first_line)
-    if place := re.search(r" \[(\S+:\d+):\d+\]", message):
-        return f"{place.group(1)}: {message.replace(place.group(0), '')}"
-    files = sorted(entry.parent.rglob("*.mo")) if entry.name == "package.mo" else [entry]
-    for file in files:
-        for diagnostic in rumoca.validate(str(file)):
-            if place := re.search(r"\[(.+?:\d+):\d+\]", diagnostic.message):
-                return f"{place.group(1)}: {message}"
-    for name in re.findall(r"['`]([^'`]+)['`]|(\w+)\(\.\.\.\)|(\w+) is not a state", message):
-        word = re.compile(rf"(?<![\w.]){re.escape(''.join(name))}(?!\w)")
-        for file in files:
-            for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), start=1):
-                if word.search(line.partition("//")[0]):
-                    return f"{file}:{number}: {message}"
-    if "resolve/parse failed" in message:
-        return f"{entry}: no class {class_name} in it"
-    return f"{entry}: {class_name}: {message}"
