@@ -81,7 +81,10 @@ def _scalars(body: Node, reader: EventReader) -> Value:
     *parents, last = body["comp"]["parts"]
     if any(part["subs"] for part in parents):
         raise ValueError("an array of components with a part assigned in an algorithm section: not supported")
-    return reader.component(_target(body), last["subs"])
+    found = reader.component(_target(body), last["subs"])
+    if not all(scalar.is_Symbol for scalar in elements(found)):
+        raise ValueError("an assignment to a subscript that changes in time: not supported; choose by if")
+    return found
 
 
 def _name(node: Any) -> str:

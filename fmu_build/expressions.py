@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-import numpy as np
 import sympy
 from sympy.logic.boolalg import Boolean
 
@@ -18,7 +17,8 @@ from .errors import BuildError
 from .functions import call
 from .ir_equations import Assignment, Relation
 from .sources import Sources
-from .symbols import der, holds, no_number, symbol
+from .subscripts import element
+from .symbols import der, holds, symbol
 from .values import ONE, ZERO, Value, array, combine, concatenate, each, field, full
 
 RELATIONS = {"Lt": "<", "Le": "<=", "Gt": ">", "Ge": ">="}
@@ -140,7 +140,7 @@ class ExpressionReader:
 
     def _reference(self, body: Mapping[str, Any]) -> Value:
         value = self._named(body["name"]["name"])
-        return self._element(value, body["subscripts"]) if body["subscripts"] else value
+        return element(self, value, body["subscripts"]) if body["subscripts"] else value
 
     def _named(self, name: str) -> Value:
         if name in self.names:
@@ -156,68 +156,13 @@ class ExpressionReader:
     def component(self, name: str, subscripts: Sequence[Mapping[str, Any]] = ()) -> Value:
         """A component of the model as symbols, also where the variable of a loop has its name."""
         value = self.components.value(name)
-        return self._element(value, subscripts) if subscripts else value
+        return element(self, value, subscripts) if subscripts else value
 
     def _indexed(self, body: Mapping[str, Any]) -> Value:
-        return self._element(self.read(body["base"]), body["subscripts"])
+        return element(self, self.read(body["base"]), body["subscripts"])
 
     def _field(self, body: Mapping[str, Any]) -> Value:
         return field(self.read(body["base"]), body["field"])
-
-    def _element(self, value: Value, subscripts: Sequence[Mapping[str, Any]]) -> Value:
-        if not isinstance(value, np.ndarray):
-            raise ValueError("a subscript of what is no array")
-        for axis, subscript in enumerate(subscripts):
-            if (moving := self._moving(subscript)) is not None:
-                return self._chosen(value, subscripts, axis, moving)
-        return value[self.indices(subscripts, value.shape)]
-
-    def _moving(self, subscript: Mapping[str, Any]) -> sympy.Expr | None:
-        """The subscript if it changes in time."""
-        value = self.read(subscript["Expr"]["expr"]) if "Expr" in subscript else None
-        if not isinstance(value, sympy.Basic) or self.components.number(value).is_number:
-            return None
-        return value
-
-    def _chosen(self, value: Value, subscripts: Sequence[Mapping[str, Any]], axis: int, moving: sympy.Expr) -> Value:
-        """The element that ``moving`` has the number of at the time; outside the array nothing, which is no number."""
-        options = []
-        for number in range(1, value.shape[axis] + 1):
-            fixed = {"Index": {"value": number}}
-            options.append(self._element(value, [*subscripts[:axis], fixed, *subscripts[axis + 1 :]]))
-        truths = [compare(sympy.Eq, moving, sympy.Integer(number)) for number in range(1, len(options) + 1)]
-        return combine(
-            lambda *scalars: sympy.Piecewise(*zip(scalars, truths, strict=True), (no_number(), True), evaluate=False),
-            *options,
-        )
-
-    def indices(self, subscripts: Sequence[Mapping[str, Any]], shape: tuple[int, ...]) -> tuple[Any, ...]:
-        """Subscripts as indices of a NumPy array, from zero; several vectors count independently of each other."""
-        found: list[Any] = []
-        for subscript, size in zip(subscripts, shape, strict=False):
-            tag, body = next(iter(subscript.items()))
-            if tag == "Colon":
-                found.append(range(size))
-                continue
-            value = sympy.Integer(body["value"]) if tag == "Index" else self.read(body["expr"])
-            if isinstance(value, np.ndarray):
-                found.append([self._position(scalar, size) for scalar in value])
-            else:
-                found.append(self._position(value, size))
-        if all(isinstance(index, int) for index in found):
-            return tuple(found)
-        found += [range(size) for size in shape[len(found) :]]
-        grid = np.ix_(*([index] if isinstance(index, int) else list(index) for index in found))
-        is_scalar = [isinstance(index, int) for index in found]
-        return tuple(np.squeeze(part, axis=tuple(np.flatnonzero(is_scalar))) for part in grid)
-
-    def _position(self, value: sympy.Expr, size: int) -> int:
-        number = self.components.structure(value)
-        if not number.is_number or number != int(number):
-            raise ValueError(f"the subscript {value} changes in time: only constants and parameters can be subscripts")
-        if not 1 <= int(number) <= size:
-            raise ValueError(f"the subscript {number} is outside 1 to {size}")
-        return int(number) - 1
 
     def shape(self, sizes: Sequence[Mapping[str, Any]]) -> list[int]:
         """The sizes of a declaration as numbers; ``:`` counts as none."""
@@ -257,13 +202,10 @@ class ExpressionReader:
         if not indices:
             return self.read(expression)
         *inner, outermost = indices
-        outside = dict(self.names)
         found = []
         for value in self.read(outermost["range"]):
-            self.names[outermost["name"]] = value
-            found.append(self._comprehended(expression, inner))
-        self.names.clear()
-        self.names.update(outside)
+            with self.bound(outermost["name"], value):
+                found.append(self._comprehended(expression, inner))
         return array(found)
 
     def _declared_function(self, body: Mapping[str, Any]) -> Value:

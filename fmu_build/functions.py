@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import sympy
 
+from .subscripts import indices
 from .values import Value, combine, each, full
 
 if TYPE_CHECKING:
@@ -165,7 +166,7 @@ def _replaced(reader: ExpressionReader, whole: Value, parts: Sequence[Node], val
         if not isinstance(whole, np.ndarray):
             raise ValueError(f"{part['ident']}[...] := in an algorithm: give the whole array a value first")
         result = whole.copy()
-        index = reader.indices(part["subs"], whole.shape)
+        index = indices(reader, part["subs"], whole.shape)
         if rest:
             value = _inside(reader, whole[index], rest, value)
         if isinstance(result[index], np.ndarray) and not isinstance(value, np.ndarray):
