@@ -23,7 +23,9 @@ def checked(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
     """Name of the class, and its unit."""
     folder = tmp_path_factory.mktemp(request.param)
     fmu = folder / f"{request.param}.fmu"
-    build(LIBRARY, f"OverrunHitch.Validation.{request.param}", fmu)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("CFLAGS", "-O0")  # compiling takes longer than all that follows
+        build(LIBRARY, f"OverrunHitch.Validation.{request.param}", fmu)
     unit = Unit(fmu, folder / "unpacked")
     unit.slave.instantiate()
     yield request.param, unit
