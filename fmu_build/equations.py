@@ -18,6 +18,7 @@ from .index_reduction import reduce_index, varies
 from .ir import EquationSystem, FlatModel
 from .ir_equations import Assignment, Equation, Relation, Variable
 from .ir_events import DiscreteEquations
+from .start_point import starts_fit
 from .substitution import substitute
 from .symbols import TIME, der, derivative_of, holds, pre, symbol
 
@@ -244,22 +245,18 @@ def _choose_states(
             continue  # reduce_index() keeps all of them
         if demoted in fixed:
             free = next((n for n in reversed(candidates) if n not in fixed), None)
-            starts[_required(free, equation, candidates)] = _start_from_others(equation, str(free), starts)
-            fixed.add(str(free))
+            if free is not None:
+                starts[free] = _start_from_others(equation, free, starts)
+                fixed.add(free)
+            elif not starts_fit([equation], candidates, variables):
+                raise BuildError(
+                    f"{equation.origin}: this equation ties the states {', '.join(candidates)} to each other, and their"
+                    " fixed start values contradict it: drop fixed=true from the one that follows from the others"
+                )
         states.remove(demoted)
         differentiated.append(equation)
         result.append(Equation(_total_derivative(equation, demoted, set(occurring), variables), equation.origin))
     return tuple(states), result, starts, differentiated
-
-
-def _required(free: str | None, equation: Equation, candidates: list[str]) -> str:
-    if free is None:
-        raise BuildError(
-            f"{equation.origin}: this equation ties the states {', '.join(candidates)} to each other, and each has a"
-            " fixed start value: index reduction is not supported; drop fixed=true from the one that follows from the"
-            " others"
-        )
-    return free
 
 
 def _start_from_others(equation: Equation, name: str, starts: Mapping[str, sympy.Expr]) -> sympy.Expr:

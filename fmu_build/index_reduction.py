@@ -17,11 +17,10 @@ import sympy
 
 from .errors import BuildError
 from .ir_equations import Equation, Variable
-from .start_point import value_at_start
+from .start_point import starts_fit
 from .symbols import TIME, der, derivative_of, symbol
 
 MAX_ROUNDS = 200
-TOLERANCE = 1e-9
 CORRECTION = 10  # w in 1/s: errors of a constraint fade within some tenths of a second
 
 
@@ -60,8 +59,11 @@ def reduce_index(
                 f"{first.origin}: this equation determines nothing that is not determined already"
                 " (one equation too many, or a constraint that takes more than differentiating equations)"
             )
-        demoted = None if chains.keys() & set(singular) else _demoted(tied, [result[i] for i in singular], variables)
-        kept = next((i for i in singular if i in chains), singular[0]) if demoted is None else None
+        before = [result[i] for i in singular]
+        demoted = None if chains.keys() & set(singular) else _demoted(tied, before, variables)
+        kept = None
+        if demoted is None:
+            kept = min((i for i in singular if i not in done), key=lambda i: i not in chains)
         for i in singular:
             derivative = Equation(_total_derivative(result[i], variables), result[i].origin)
             if i == kept:
@@ -72,7 +74,7 @@ def reduce_index(
                 done.add(i)
         if demoted is not None:
             remaining.remove(demoted)
-            given += _given(variables[demoted], [result[i] for i in singular], variables)
+            given += _given(variables[demoted], before, tied, variables)
     raise BuildError(f"{first.origin}: this constraint takes too many differentiations: index reduction gives up here")
 
 
@@ -132,9 +134,11 @@ def _demoted(tied: list[str], equations: list[Equation], variables: Mapping[str,
     return min(solvable, key=wanted)
 
 
-def _given(demoted: Variable, equations: list[Equation], variables: Mapping[str, Variable]) -> list[Equation]:
+def _given(
+    demoted: Variable, equations: list[Equation], tied: list[str], variables: Mapping[str, Variable]
+) -> list[Equation]:
     """What a fixed start value says of the states that are left; nothing where it follows from theirs."""
-    if not demoted.fixed or _starts_fit(equations, variables):
+    if not demoted.fixed or starts_fit(equations, tied, variables):
         return []
     start = sympy.Integer(0) if demoted.start is None else demoted.start
     return [Equation(symbol(demoted.name) - start, demoted.origin)]
@@ -143,12 +147,6 @@ def _given(demoted: Variable, equations: list[Equation], variables: Mapping[str,
 def varies(factor: sympy.Expr, variables: Mapping[str, Variable]) -> bool:
     """Whether it changes in time."""
     return any(s.name == TIME or _is_unknown(s.name, variables) for s in factor.free_symbols)
-
-
-def _starts_fit(equations: list[Equation], variables: Mapping[str, Variable]) -> bool:
-    """Whether all are true with the start values as they are, as where all are zero."""
-    values = [value_at_start(equation.residual, variables.values()) for equation in equations]
-    return all(value is not None and abs(value) < TOLERANCE for value in values)
 
 
 def _total_derivative(equation: Equation, variables: Mapping[str, Variable]) -> sympy.Expr:

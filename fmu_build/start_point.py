@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from scipy.linalg import qr
 
 from .ir_equations import Equation, Variable
-from .symbols import symbol
+from .symbols import TIME, symbol
 
+TOLERANCE = 1e-9  # of equations that start values should meet
 RANK = 1e-9  # singular values below this share of the largest are zero
 UNDECLARED = 0.1  # weight of a state without a start value: such a one should rather follow from the others
 
@@ -24,6 +25,27 @@ def value_at_start(expression: sympy.Expr, variables: Iterable[Variable]) -> flo
     """The value with all start values and parameters as declared; None where it contains anything else."""
     value = expression.xreplace(_point(variables))
     return float(value) if value.is_number and value.is_finite else None
+
+
+def starts_fit(equations: Sequence[Equation], states: Iterable[str], variables: Mapping[str, Variable]) -> bool:
+    """Whether the equations, linear in what is no state, have a solution with the start values of the states as they
+    are, as where all are zero."""
+    kept = {symbol(name) for name in states} | {
+        symbol(v.name) for v in variables.values() if v.variability == "parameter"
+    }
+    point = {s: value for s, value in _point(variables.values()).items() if s in kept} | {
+        symbol(TIME): sympy.Integer(0)
+    }
+    residuals = [equation.residual.xreplace(point) for equation in equations]
+    unknowns = sorted(set().union(*(r.free_symbols for r in residuals)), key=str)
+    slopes = [[r.diff(s) for s in unknowns] for r in residuals]
+    values = [r.xreplace(dict.fromkeys(unknowns, sympy.Integer(0))) for r in residuals]
+    if not all(x.is_number and x.is_finite for row in (*slopes, values) for x in row):
+        return False
+    matrix = np.array(slopes, float).reshape(len(residuals), len(unknowns))
+    offsets = np.array(values, float)
+    solution = np.linalg.lstsq(matrix, -offsets, rcond=None)[0]
+    return bool(np.abs(matrix @ solution + offsets).max() < TOLERANCE)
 
 
 def free_coordinates(

@@ -65,6 +65,42 @@ equation
 end M;""",
         2.0,
     ),
+    "two rods": Case(
+        """
+model M
+  parameter Real g = 9.81;
+  Real x_1(start=1), y_1(start=0), u_1, v_1, F_1;
+  Real x_2(start=2), y_2(start=0), u_2, v_2, F_2;
+equation
+  der(x_1) = u_1;
+  der(y_1) = v_1;
+  der(x_2) = u_2;
+  der(y_2) = v_2;
+  der(u_1) = -x_1*F_1 + (x_2 - x_1)*F_2;
+  der(v_1) = -y_1*F_1 + (y_2 - y_1)*F_2 - g;
+  der(u_2) = -(x_2 - x_1)*F_2;
+  der(v_2) = -(y_2 - y_1)*F_2 - g;
+  x_1^2 + y_1^2 = 1;
+  (x_2 - x_1)^2 + (y_2 - y_1)^2 = 1;
+end M;""",
+        1.0,
+        cvode=1e-10,
+    ),
+    "fixed start values of all that a constraint ties": Case(
+        """
+model M "A wheel that rolls"
+  parameter Real r = 0.5;
+  Real s(start=0, fixed=true), v(start=0, fixed=true), phi(start=0, fixed=true), w(start=0, fixed=true), F;
+equation
+  der(s) = v;
+  der(phi) = w;
+  s = r*phi;
+  2*der(v) = 10*sin(time) - F;
+  0.3*der(w) = F*r;
+end M;""",
+        2.0,
+        lambda t: {"v": 10 / 3.2 * (1 - np.cos(t))},
+    ),
     "a gear whose far side has the start value": Case(
         """
 model M
