@@ -48,7 +48,7 @@ class Entry:
         """Unit, quantity and limits, as both versions of FMI write them."""
         v = self.variable
         numbers = {"min": v.min, "max": v.max, "nominal": v.nominal or None}
-        texts = {"unit": v.unit, "quantity": v.quantity}
+        texts = {} if v.type == "Boolean" else {"unit": v.unit, "quantity": v.quantity}  # FMI has none of a Boolean
         if v.type != "Real":
             texts["unit"] = ""
             numbers = {} if v.type == "Boolean" else numbers | {"nominal": None}

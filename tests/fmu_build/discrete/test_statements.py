@@ -58,6 +58,18 @@ def test_arrays_at_events(way: Way) -> None:
         assert (row["x[1]"], row["x[2]"]) == pytest.approx((2**ticks * decay, 3**ticks * decay), rel=1e-8)
 
 
+QUANTITIES = """
+model Quantities "FMI knows the quantity of an Integer, and none of a Boolean"
+  Boolean b(quantity="switch", start=true) = time > 0.5;
+  Integer n(quantity="count", min=0, max=9) = if b then 2 else 1;
+end Quantities;
+"""
+
+
+def test_attributes_of_discrete_variables(way: Way) -> None:
+    assert way.run(QUANTITIES, 1.0, 1.0, ["n"])["n"].tolist() == [1, 2]
+
+
 TEXTS = """
 model Texts "A message with a text of a parameter in it"
   parameter String what = "the level";
