@@ -15,10 +15,8 @@ import sympy
 from .errors import BuildError
 from .ir import EquationSystem
 from .ir_equations import Assignment, Equation, Variable
-from .start_point import free_coordinates, value_at_start
+from .start_point import TOLERANCE, free_coordinates, value_at_start
 from .symbols import pre, symbol
-
-TOLERANCE = 1e-6  # of a constraint that fixed start values should meet
 
 
 def initialize(system: EquationSystem) -> EquationSystem:

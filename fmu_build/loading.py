@@ -31,7 +31,7 @@ def load(path: Path, class_name: str) -> tuple[rumoca.Model, Sources]:
         else:
             model, files = _compiled_alone(entry, class_name)
     except rumoca.RumocaError as error:
-        raise BuildError(_located_message(error, entry, class_name)) from None
+        raise BuildError(_located_message(str(error), entry, class_name)) from None
     except BaseException as error:  # what rumoca throws when it runs into a mistake of its own is no Exception
         if type(error).__name__ != "PanicException":
             raise
@@ -55,16 +55,17 @@ def _compiled_alone(entry: Path, class_name: str) -> tuple[rumoca.Model, list[tu
             model, files = _compiled(copy, class_name)
             return model, [(number, name.replace(str(copy), str(entry)), text) for number, name, text in files]
         except rumoca.RumocaError as error:
-            alone = error
+            alone = str(error).replace(str(copy), str(entry))
     try:
         return _compiled(entry, class_name)
     except rumoca.RumocaError as error:
-        raise (alone if "Duplicate class" in str(error) else error) from None
+        text = alone if "Duplicate class" in str(error) else str(error)
+        raise BuildError(_located_message(text, entry, class_name)) from None
 
 
-def _located_message(error: Exception, entry: Path, class_name: str) -> str:
-    """One line with file and line for a rumoca error."""
-    first_line = str(error).splitlines()[0]
+def _located_message(text: str, entry: Path, class_name: str) -> str:
+    """One line with file and line for the text of a rumoca error."""
+    first_line = text.splitlines()[0]
     message = re.sub(r"^\S+ could not be compiled: |^\w+ failed: \S+ failed in \w+: ", "", first_line)
     if place := re.search(r" \[(\S+:\d+):\d+\]", message):
         return f"{place.group(1)}: {message.replace(place.group(0), '')}"

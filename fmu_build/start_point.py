@@ -16,7 +16,7 @@ from scipy.linalg import qr
 from .ir_equations import Equation, Variable
 from .symbols import TIME, symbol
 
-TOLERANCE = 1e-9  # of equations that start values should meet
+TOLERANCE = 1e-6  # of equations that start values should meet
 RANK = 1e-9  # singular values below this share of the largest are zero
 UNDECLARED = 0.1  # weight of a state without a start value: such a one should rather follow from the others
 
