@@ -10,7 +10,7 @@ READY_MADE := python/overrun_hitch/fmus
 DIST := $(foreach unit,$(UNITS),$(READY_MADE)/fmi2/$(unit).fmu $(READY_MADE)/fmi3/$(unit).fmu)
 BUILD := $(BIN)/python -m fmu_build modelica/OverrunHitch OverrunHitch.Systems
 SOURCES := $(READY) $(shell find modelica fmu_build -name '*.mo' -o -name '*.order' -o -name '*.py' -o -name '*.[ch]')
-C_FILES := fmu_build/runtime/*.[ch] tests/platforms/*.[ch] benchmarks/*.c
+C_FILES := $(shell find fmu_build/runtime -name "*.[ch]") tests/platforms/*.[ch] benchmarks/*.c
 
 help:  ## list the targets
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-15s %s\n", $$1, $$2}'
@@ -41,8 +41,8 @@ fmu-all: $(READY)  ## build them for Linux, Windows and macOS (minutes, the firs
 
 ssp: build/CarTrailer.ssp  ## wire Car and Trailer, with the nine cases' parameters (SSP 1.0)
 
-build/CarTrailer.ssp: build/fmi2/Car.fmu build/fmi2/Trailer.fmu $(wildcard python/overrun_hitch/ssp*.py) python/overrun_hitch/parameters.py
-	$(BIN)/python -m overrun_hitch.ssp build/fmi2/Car.fmu build/fmi2/Trailer.fmu -o $@
+build/CarTrailer.ssp: build/fmi2/Car.fmu build/fmi2/Trailer.fmu $(wildcard python/overrun_hitch/coupling/ssp*.py) python/overrun_hitch/parameters.py
+	$(BIN)/python -m overrun_hitch.coupling.ssp build/fmi2/Car.fmu build/fmi2/Trailer.fmu -o $@
 
 dist: $(READY) $(DIST)  ## make the wheel, with the FMUs for all systems in it (dist; minutes, the first time)
 	$(BIN)/hatchling build -t wheel

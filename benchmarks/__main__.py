@@ -23,8 +23,8 @@ from benchmarks import (
     sweep,
     work_precision,
 )
-from fmu_build.compile import compiler
-from overrun_hitch.figures import rendered
+from fmu_build.fmu.compile import compiler
+from overrun_hitch.show.traces import rendered
 
 HERE = Path(__file__).parent
 PICTURE = "work-precision.svg"

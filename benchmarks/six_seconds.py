@@ -11,7 +11,7 @@ from statistics import median
 import fmpy
 import numpy as np
 
-from fmu_build.compile import OPTIONS, compiler
+from fmu_build.fmu.compile import OPTIONS, compiler
 from overrun_hitch.parameters import FIGURES
 from tests.oracles import radau
 

@@ -13,9 +13,9 @@ import time
 from pathlib import Path
 from statistics import median
 
-from overrun_hitch.limit_cycle import g_n
+from overrun_hitch.experiments.limit_cycle import g_n
 from overrun_hitch.parameters import DATUM, Parameters
-from overrun_hitch.steady import steady
+from overrun_hitch.theory.steady import steady
 from tests.unit import Unit
 
 RUNS = 31

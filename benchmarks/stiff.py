@@ -31,7 +31,7 @@ from benchmarks.comparison import in_turns
 from benchmarks.contender import Floats
 from benchmarks.work_precision import TOLERANCES, Curve, draw_curves
 from fmu_build.pipeline import build
-from overrun_hitch.figures import STYLE, rendered
+from overrun_hitch.show.traces import STYLE, rendered
 from tests.unit import Unit
 
 PICTURE = Path(__file__).with_name("stiff.svg")

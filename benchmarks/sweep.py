@@ -22,12 +22,12 @@ import numpy as np
 import psutil
 from threadpoolctl import threadpool_limits
 
-from overrun_hitch.metrics import NEEDED, Traces, measured
+from overrun_hitch.fmu.opening import opened_unit
+from overrun_hitch.measure.metrics import NEEDED, Traces, measured
 from overrun_hitch.results import VARIABLES
-from overrun_hitch.sweep_engine import run_plan
-from overrun_hitch.sweep_plan import Plan, planned
-from overrun_hitch.sweep_spec import SweepSpec
-from overrun_hitch.unit import opened_unit
+from overrun_hitch.sweeps.engine import run_plan
+from overrun_hitch.sweeps.plan import Plan, planned
+from overrun_hitch.sweeps.spec import SweepSpec
 
 RANGES = {"C": {"min": 100.0, "max": 1000.0}, "V_0": {"min": 20.0, "max": 40.0}, "M_t": {"min": 300.0, "max": 700.0}}
 RUNS = 10_000

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from benchmarks.comparison import ALLOWED, in_turns
 from benchmarks.contender import Contender, Floats
-from overrun_hitch.figures import STYLE
+from overrun_hitch.show.traces import STYLE
 
 TOLERANCES = [10.0 ** (-n / 2) for n in range(4, 21)]  # 1e-2 to 1e-10, relative
 ROUNDS = 5

@@ -26,7 +26,7 @@ def build_fmu(
     verbose: Annotated[bool, typer.Option("--verbose", help="Show each stage and its time.")] = False,
 ) -> None:
     """Build an FMU from Modelica, for this machine or for others."""
-    from .pipeline import build  # here, because sympy would slow down --help and wrong options
+    from .pipeline import build
 
     names = [name.strip() for name in platforms.split(",") if name.strip()]
     with _progress(shown=names != ["host"], verbose=verbose) as progress:

@@ -6,22 +6,23 @@ import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from .archive import content_token, write_fmu
-from .c_elimination import print_elimination
-from .c_model import print_c
-from .compile import compile_library, named_platforms
-from .contents import SOURCES, contents
-from .discrete import lower
-from .elimination import eliminate
-from .equations import derive
-from .fat_mach_o import universal
-from .frontend import flatten, simulate
-from .initial import initialize
-from .interface import expose
-from .ir import TOKEN_PLACEHOLDER, CSources
-from .jacobian import differentiate
-from .ports import declare
-from .sort import sort
+from .codegen.elimination import print_elimination
+from .codegen.model import print_c
+from .equations.derive import derive
+from .equations.elimination import eliminate
+from .equations.initialize import initialize
+from .equations.jacobian import differentiate
+from .equations.lower import lower
+from .equations.sort import sort
+from .fmu.archive import content_token, write_fmu
+from .fmu.compile import compile_library, named_platforms
+from .fmu.contents import SOURCES, contents
+from .fmu.fat_mach_o import universal
+from .fmu.interface import expose
+from .fmu.ports import declare
+from .frontend.flatten import flatten
+from .frontend.simulate import simulate
+from .ir.models import TOKEN_PLACEHOLDER, CSources
 
 
 def build(

@@ -12,7 +12,7 @@ import pytest
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from fmu_build.pipeline import build
-from overrun_hitch.unit import listening
+from overrun_hitch.fmu.messages import listening
 
 ROOT = Path(__file__).parents[1]
 LIBRARY = ROOT / "modelica" / "OverrunHitch"

@@ -23,7 +23,7 @@ from fmpy.fmi3 import FMU3Slave
 from fmu_manipulation_toolbox.container import FMUContainer  # type: ignore[import-untyped]
 from numpy.typing import NDArray
 
-from fmu_build.compile import host_platform
+from fmu_build.fmu.compile import host_platform
 from overrun_hitch.parameters import FIGURES
 from overrun_hitch.results import VARIABLES
 from tests.unit import Unit

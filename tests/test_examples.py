@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from overrun_hitch.ssp import write_ssp
+from overrun_hitch.coupling.ssp import write_ssp
 from tests.conftest import ROOT
 from tests.test_container import toolbox_runs_here
 from tests.test_container_pair import FORCES

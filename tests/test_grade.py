@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from overrun_hitch.limit_cycle import g_n, weight_push
+from overrun_hitch.experiments.limit_cycle import g_n, weight_push
 from overrun_hitch.parameters import DATUM
 from tests.unit import Unit
 

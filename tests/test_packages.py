@@ -16,7 +16,7 @@ from fmpy.ssp.ssd import read_ssv
 from fmpy.validation import validate_fmu
 from lxml import etree
 
-from fmu_build.compile import compiler
+from fmu_build.fmu.compile import compiler
 
 VERSIONS = [2, 3]
 SSV_SCHEMA = Path("ssp", "schema", "SystemStructureParameterValues.xsd")

@@ -18,8 +18,8 @@ from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import read_ssd, read_ssv, validate_tree
 from lxml import etree
 
+from overrun_hitch.coupling.ssp import OUTPUTS, main, write_ssp
 from overrun_hitch.parameters import CASES, DATUM, Parameters
-from overrun_hitch.ssp import OUTPUTS, main, write_ssp
 from tests.unit import Unit
 
 H, COUNT = 1.0 / 128.0, 512  # s; four seconds, in steps that add up without rounding

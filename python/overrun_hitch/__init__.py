@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from overrun_hitch.sweep_engine import sweep
+    from overrun_hitch.sweeps.engine import sweep
 
 __all__ = ["sweep"]
 
@@ -13,7 +13,7 @@ __all__ = ["sweep"]
 def __getattr__(name: str) -> Any:
     # Only when it is asked for: Dask would slow down every start, and the independent check needs numpy alone.
     if name == "sweep":
-        from overrun_hitch.sweep_engine import sweep
+        from overrun_hitch.sweeps.engine import sweep
 
         return sweep
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

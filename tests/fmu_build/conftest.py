@@ -15,19 +15,19 @@ import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
 
-from fmu_build.c_elimination import print_elimination
-from fmu_build.c_model import print_c
-from fmu_build.compile import RUNTIME, WARNINGS, compiler
-from fmu_build.discrete import lower
-from fmu_build.elimination import eliminate
-from fmu_build.equations import derive
-from fmu_build.frontend import flatten
-from fmu_build.initial import initialize
-from fmu_build.ir import SortedModel
-from fmu_build.jacobian import differentiate
+from fmu_build.codegen.elimination import print_elimination
+from fmu_build.codegen.model import print_c
+from fmu_build.equations.derive import derive
+from fmu_build.equations.elimination import eliminate
+from fmu_build.equations.initialize import initialize
+from fmu_build.equations.jacobian import differentiate
+from fmu_build.equations.lower import lower
+from fmu_build.equations.sort import sort
+from fmu_build.fmu.compile import RUNTIME, WARNINGS, compiler
+from fmu_build.frontend.flatten import flatten
+from fmu_build.ir.dependencies import start_value
+from fmu_build.ir.models import SortedModel
 from fmu_build.pipeline import build
-from fmu_build.slices import start_value
-from fmu_build.sort import sort
 
 Writer = Callable[[str], Path]
 Build = Callable[[str, int], Path]
@@ -86,7 +86,8 @@ class CompiledModel:
             (folder / name).write_text(text, encoding="utf-8")
         library = folder / "model.so"
         flags = ["-std=c11", "-O1", "-fPIC", "-shared", *WARNINGS, "-Werror", f"-I{folder}", f"-I{RUNTIME}"]
-        sources = [str(folder / "model.c"), *(str(RUNTIME / name) for name in ("loops.c", "message.c"))]
+        flags.append(f"-I{RUNTIME / 'numerics'}")
+        sources = [str(folder / "model.c"), *(str(RUNTIME / name) for name in ("numerics/loops.c", "message.c"))]
         subprocess.run([*compiler(), *flags, *sources, "-o", str(library), "-lm"], check=True)
         self._library = ctypes.CDLL(str(library))
         self.model = model

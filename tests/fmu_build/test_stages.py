@@ -8,12 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fmu_build.equations import derive
-from fmu_build.frontend import flatten
-from fmu_build.ir import SortedModel
-from fmu_build.sort import sort
-
-from .conftest import CompiledModel
+from fmu_build.equations.derive import derive
+from fmu_build.equations.sort import sort
+from fmu_build.frontend.flatten import flatten
+from fmu_build.ir.models import SortedModel
+from tests.fmu_build.conftest import CompiledModel
 
 Compile = Callable[[str], CompiledModel]
 

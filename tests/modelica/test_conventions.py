@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from fmu_build.frontend import flatten
-from fmu_build.ir import FlatModel
+from fmu_build.frontend.flatten import flatten
+from fmu_build.ir.models import FlatModel
 
 LIBRARY = Path(__file__).parents[2] / "modelica" / "OverrunHitch"
 FILES = sorted(LIBRARY.rglob("*.mo"))

@@ -9,8 +9,8 @@ import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 
-from overrun_hitch.paper.figures import figures
-from overrun_hitch.paper.study import Study, study
+from overrun_hitch.paper.figures.all import figures
+from overrun_hitch.paper.study.study import Study, study
 from overrun_hitch.parameters import Scenario
 from overrun_hitch.results import VARIABLES, dataset, scenario_attributes
 from tests.oracles import radau

@@ -9,7 +9,7 @@ from pathlib import Path
 import lief
 import pytest
 
-from fmu_build.compile import PLATFORMS, compile_library
+from fmu_build.fmu.compile import PLATFORMS, compile_library
 from fmu_build.pipeline import build
 
 pytestmark = pytest.mark.platforms

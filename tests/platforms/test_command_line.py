@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from fmu_build.compile import zig_compiler
+from fmu_build.fmu.compile import zig_compiler
 
 needs_zig = pytest.mark.skipif(zig_compiler() is None, reason="the package ziglang is not installed")
 

@@ -6,9 +6,9 @@ import struct
 
 import pytest
 
-from fmu_build.compile import PLATFORMS, host_platform, named_platforms
 from fmu_build.errors import BuildError
-from fmu_build.fat_mach_o import universal
+from fmu_build.fmu.compile import PLATFORMS, host_platform, named_platforms
+from fmu_build.fmu.fat_mach_o import universal
 
 X86_64, ARM64 = 0x01000007, 0x0100000C  # mach/machine.h: CPU_TYPE_X86_64, CPU_TYPE_ARM64
 

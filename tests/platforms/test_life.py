@@ -8,9 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from fmu_build.compile import host_platform
-
-from .conftest import Program
+from fmu_build.fmu.compile import host_platform
+from tests.platforms.conftest import Program
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the drivers are for Linux")
 

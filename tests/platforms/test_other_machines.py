@@ -8,9 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fmu_build.compile import PLATFORMS, host_platform
-
-from .conftest import OUTPUTS, Program
+from fmu_build.fmu.compile import PLATFORMS, host_platform
+from tests.platforms.conftest import OUTPUTS, Program
 
 pytestmark = pytest.mark.platforms
 

@@ -8,9 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from fmu_build.compile import OPTIONS, compiler
-
-from .conftest import Program
+from fmu_build.fmu.compile import OPTIONS, compiler
+from tests.platforms.conftest import Program
 
 SANITIZE = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g", "-O1")
 

@@ -1,1 +1,3 @@
-"""One module a command: options in, exit status out. What takes long to import is imported where it is used."""
+"""The commands of `hitch`: options in, exit status out."""
+
+__all__ = ["couple", "crosscheck", "optimise", "paper", "report", "run", "sensitivity", "stability", "sweep"]

@@ -32,13 +32,13 @@ def couple(
     steps = numbers("--H", H, doubling)
 
     # Imported here, because fmpy and matplotlib would slow down `hitch --help` and wrong options.
-    from overrun_hitch import figures, terminal
-    from overrun_hitch.coupling import opened_pair
-    from overrun_hitch.coupling_figure import draw_coupling
-    from overrun_hitch.coupling_study import check_step, study_coupling
-    from overrun_hitch.coupling_table import show, write_csv
-    from overrun_hitch.fmu import CAR, CAR_TRAILER, TRAILER
-    from overrun_hitch.unit import opened_unit
+    from overrun_hitch.coupling.figure import draw_coupling
+    from overrun_hitch.coupling.pair import opened_pair
+    from overrun_hitch.coupling.study import check_step, study_coupling
+    from overrun_hitch.coupling.table import show, write_csv
+    from overrun_hitch.fmu.files import CAR, CAR_TRAILER, TRAILER
+    from overrun_hitch.fmu.opening import opened_unit
+    from overrun_hitch.show import terminal, traces
 
     for step in steps:
         check_step(step)
@@ -49,7 +49,7 @@ def couple(
     stem = output / file_stem(name)
     table = stem.with_name(f"{stem.name}.csv")
     with terminal.patience("Drawing"):
-        paths = figures.save(draw_coupling(study), stem)
+        paths = traces.save(draw_coupling(study), stem)
         write_csv(study, table)
     show(name, study, [table, *paths])
     return 0

@@ -32,9 +32,12 @@ def crosscheck(
     scenarios = [named("figure", name, FIGURES) for name in dict.fromkeys(figure or FIGURES)]
 
     # Imported here, because fmpy, xarray and matplotlib would slow down `hitch --help` and wrong options.
-    from overrun_hitch import crosscheck_figures, crosscheck_report, results, terminal
-    from overrun_hitch.crosscheck import LABELS, Allowed, compare_fmus
-    from overrun_hitch.run import Settings
+    from overrun_hitch import results
+    from overrun_hitch.comparison import crosscheck_figures
+    from overrun_hitch.comparison import crosscheck_table as crosscheck_report
+    from overrun_hitch.comparison.crosscheck import LABELS, Allowed, compare_fmus
+    from overrun_hitch.fmu.settings import Settings
+    from overrun_hitch.show import terminal
 
     if len(fmus) > len(LABELS):
         raise HitchError(f"{len(fmus)} FMUs are too many: {len(LABELS)} at most")

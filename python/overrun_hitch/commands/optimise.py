@@ -34,10 +34,11 @@ def optimise(
     V_low, V_high = _ends("--V", V)
 
     # Imported here, because fmpy and SciPy would slow down `hitch --help` and wrong options.
-    from overrun_hitch import optimise_table, terminal
-    from overrun_hitch.optimise import Wanted, default_range
-    from overrun_hitch.optimise import optimise as search
-    from overrun_hitch.unit import opened_unit
+    from overrun_hitch.design import optimise_table
+    from overrun_hitch.design.optimise import Wanted, default_range
+    from overrun_hitch.design.optimise import optimise as search
+    from overrun_hitch.fmu.opening import opened_unit
+    from overrun_hitch.show import terminal
 
     wanted = Wanted(ratio=ratio, V_low=V_low, V_high=V_high)
     low, high = default_range(base, free) if range_ is None else _ends("--range", range_)

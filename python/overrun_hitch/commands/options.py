@@ -80,15 +80,15 @@ def file_stem(name: str) -> str:
 
 def chosen_fmu(fmu: Path | None) -> Path:
     """The FMU of the option, or our own CarTrailer.fmu."""
-    from overrun_hitch.fmu import CAR_TRAILER
+    from overrun_hitch.fmu.files import CAR_TRAILER
 
     return our_fmu(CAR_TRAILER) if fmu is None else fmu
 
 
 def our_fmu(fmu: Path) -> Path:
     """One of our own, built first where it is missing or stale."""
-    from overrun_hitch import terminal
-    from overrun_hitch.fmu import build, is_current
+    from overrun_hitch.fmu.files import build, is_current
+    from overrun_hitch.show import terminal
 
     if not is_current(fmu):
         with terminal.patience(f"Building {fmu.name} from Modelica"):

@@ -22,11 +22,13 @@ def paper(
     The exit status is 1 if a claim does not hold.
     """
     # Imported here, because fmpy, xarray and matplotlib would slow down `hitch --help` and wrong options.
-    from overrun_hitch import results, terminal
-    from overrun_hitch.figures import KINDS, rendered
-    from overrun_hitch.paper import claims_table, study
-    from overrun_hitch.paper.claims import all_claims
-    from overrun_hitch.paper.figures import figures, stem
+    from overrun_hitch import results
+    from overrun_hitch.paper.claims import table as claims_table
+    from overrun_hitch.paper.claims.all import all_claims
+    from overrun_hitch.paper.figures.all import figures, stem
+    from overrun_hitch.paper.study import study
+    from overrun_hitch.show import terminal
+    from overrun_hitch.show.traces import KINDS, rendered
 
     unit = chosen_fmu(fmu)
     with terminal.patience("Recomputing the paper") as say:

@@ -23,9 +23,10 @@ def report(
     The exit status is 1 if a claim, or one of the page's own findings, does not hold.
     """
     # Imported here, because fmpy, xarray and matplotlib would slow down `hitch --help` and wrong options.
-    from overrun_hitch import results, terminal
-    from overrun_hitch.paper import study
-    from overrun_hitch.report import COMMAND, page, report_of, show
+    from overrun_hitch import results
+    from overrun_hitch.paper.report.page import COMMAND, page, report_of, show
+    from overrun_hitch.paper.study import study
+    from overrun_hitch.show import terminal
 
     unit = chosen_fmu(fmu)
     path = output / "index.html"

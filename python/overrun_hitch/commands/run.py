@@ -38,9 +38,10 @@ def run(
     )
 
     # Imported here, because fmpy, xarray and matplotlib would slow down `hitch --help` and wrong options.
-    from overrun_hitch import figures, results, terminal
-    from overrun_hitch.compare import compare
-    from overrun_hitch.run import car_alone, step_brake
+    from overrun_hitch import results
+    from overrun_hitch.comparison.theory import compare
+    from overrun_hitch.experiments.step_brake import car_alone, step_brake
+    from overrun_hitch.show import terminal, traces
 
     accuracy: dict[str, Any] = {
         "fmu": chosen_fmu(fmu),
@@ -53,7 +54,7 @@ def run(
     stem = output / file_stem(scenario.name)
     with terminal.patience("Drawing"):
         results.write_csv(result, stem.with_name(f"{stem.name}.csv"))
-        paths = [stem.with_name(f"{stem.name}.csv"), *figures.write(result, stem)]
+        paths = [stem.with_name(f"{stem.name}.csv"), *traces.write(result, stem)]
     terminal.show(scenario, result, rows, paths)
     return 1 if any(row.differs for row in rows) else 0
 

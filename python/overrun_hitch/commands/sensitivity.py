@@ -37,9 +37,10 @@ def sensitivity(
     base = start.changed(asked_changes(parameters, set_))
 
     # Imported here, because Dask, SALib and xarray would slow down `hitch --help` and wrong options.
-    from overrun_hitch import figures, sensitivity_figure, sensitivity_table, terminal
-    from overrun_hitch.sensitivity import Variation, analysed, plan_variation
-    from overrun_hitch.sweep_engine import run_plan
+    from overrun_hitch.design import sensitivity_figure, sensitivity_table
+    from overrun_hitch.design.sensitivity import Variation, analysed, plan_variation
+    from overrun_hitch.show import terminal, traces
+    from overrun_hitch.sweeps.engine import run_plan
 
     variation = Variation(spread=spread, samples=samples)
     changed = name_with("figure 8" if case is None else f"case {case}", start, base)
@@ -52,6 +53,6 @@ def sensitivity(
     with terminal.patience("Analysing"):
         found = analysed(sweep, base, variation)
     title = f"{changed[:1].upper()}{changed[1:]}: every parameter by {spread:.0%} to either side"
-    paths = figures.save(sensitivity_figure.draw(found, title), stem)
+    paths = traces.save(sensitivity_figure.draw(found, title), stem)
     sensitivity_table.show(title, found, [store, *paths])
     return 0

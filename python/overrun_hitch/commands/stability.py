@@ -43,9 +43,11 @@ def stability(
     name = name_with("datum" if case is None else f"case {case}", without, changed)
 
     # Imported here, because SciPy, xarray and matplotlib would slow down `hitch --help` and wrong options.
-    from overrun_hitch import figures, stability_figure, stability_table, terminal
-    from overrun_hitch.stability import document, write_csv
-    from overrun_hitch.stability import stability as analyse
+    from overrun_hitch.modes import figure as stability_figure
+    from overrun_hitch.modes import table as stability_table
+    from overrun_hitch.modes.study import document, write_csv
+    from overrun_hitch.modes.study import stability as analyse
+    from overrun_hitch.show import terminal, traces
 
     with terminal.patience("Solving for the modes"):
         result = analyse(name, changed, dampers, speeds)
@@ -54,7 +56,7 @@ def stability(
     with terminal.patience("Drawing"):
         figure = stability_figure.draw(result)
         write_csv(result, paths[0])
-        figures.save(figure, stem)
+        traces.save(figure, stem)
     if json:
         print(json_format.dumps(document(result, paths), indent=2, allow_nan=False))
     else:

@@ -32,10 +32,12 @@ def sweep(
     The same command goes on with a sweep that was interrupted.
     """
     # Imported here, because Dask and xarray would slow down `hitch --help` and wrong options.
-    from overrun_hitch import figures, sweep_figures, sweep_table, terminal
-    from overrun_hitch.sweep_engine import run_plan
-    from overrun_hitch.sweep_plan import planned
-    from overrun_hitch.sweep_spec import read_spec
+    from overrun_hitch.show import terminal, traces
+    from overrun_hitch.sweeps import map as sweep_figures
+    from overrun_hitch.sweeps import table as sweep_table
+    from overrun_hitch.sweeps.engine import run_plan
+    from overrun_hitch.sweeps.plan import planned
+    from overrun_hitch.sweeps.spec import read_spec
 
     asked = read_spec(spec)
     if asked.fmus and fmu:
@@ -50,6 +52,6 @@ def sweep(
         result = run_plan(plan, store, scheduler=scheduler, workers=workers, progress=told)
     paths = [store]
     for metric in map_ or ():
-        paths += figures.save(sweep_figures.draw_map(result, metric), stem.with_name(f"{stem.name}-{metric}"))
+        paths += traces.save(sweep_figures.draw_map(result, metric), stem.with_name(f"{stem.name}-{metric}"))
     sweep_table.show(asked.name, result, paths)
     return 1 if sweep_table.failures(result) else 0

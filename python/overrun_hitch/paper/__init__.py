@@ -1,1 +1,3 @@
-"""Sharp (1982), recomputed: what the paper's figures and claims are made of, and whether they hold."""
+"""The paper, recomputed."""
+
+__all__ = ["claims", "figures", "report", "study"]

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import pytest
-from hand_written import Model
-from runtime_fmi3 import Unit3
-from runtime_unit import Library, Unit, compile_model
+
+from tests.fmu_build.runtime.hand_written import Model
+from tests.fmu_build.runtime.runtime_fmi3 import Unit3
+from tests.fmu_build.runtime.runtime_unit import Library, Unit, compile_model
 
 
 @pytest.fixture(scope="session")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
 
-from hand_written import Model, Variable
+from tests.fmu_build.runtime.hand_written import Model, Variable
 
 
 @dataclass(frozen=True)

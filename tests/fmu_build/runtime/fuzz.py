@@ -8,14 +8,12 @@ import sys
 import tempfile
 from pathlib import Path
 
+from tests.fmu_build.runtime.coupled_models import TOWED
+from tests.fmu_build.runtime.hand_written import Model
+from tests.fmu_build.runtime.runtime_models import CAR_TRAILER, NO_STATES, OSCILLATOR, PARADOX, SINGULAR, SLIDING
+from tests.fmu_build.runtime.runtime_unit import compile_sources
+
 HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE), str(HERE.parents[2])]
-
-from coupled_models import TOWED  # noqa: E402
-from hand_written import Model  # noqa: E402
-from runtime_models import CAR_TRAILER, NO_STATES, OSCILLATOR, PARADOX, SINGULAR, SLIDING  # noqa: E402
-from runtime_unit import compile_sources  # noqa: E402
-
 MODELS = (CAR_TRAILER, OSCILLATOR, SINGULAR, SLIDING, PARADOX, NO_STATES, TOWED)
 FLAGS = "-std=gnu11 -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -Wall -Wextra -Werror".split()
 

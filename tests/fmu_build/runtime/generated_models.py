@@ -5,19 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from hand_written import TOKEN
-
-from fmu_build.c_elimination import print_elimination
-from fmu_build.c_model import print_c
-from fmu_build.discrete import lower
-from fmu_build.elimination import eliminate
-from fmu_build.equations import derive
-from fmu_build.frontend import flatten
-from fmu_build.initial import initialize
-from fmu_build.ir import TOKEN_PLACEHOLDER
-from fmu_build.jacobian import differentiate
-from fmu_build.ports import declare
-from fmu_build.sort import sort
+from fmu_build.codegen.elimination import print_elimination
+from fmu_build.codegen.model import print_c
+from fmu_build.equations.derive import derive
+from fmu_build.equations.elimination import eliminate
+from fmu_build.equations.initialize import initialize
+from fmu_build.equations.jacobian import differentiate
+from fmu_build.equations.lower import lower
+from fmu_build.equations.sort import sort
+from fmu_build.fmu.ports import declare
+from fmu_build.frontend.flatten import flatten
+from fmu_build.ir.models import TOKEN_PLACEHOLDER
+from tests.fmu_build.runtime.hand_written import TOKEN
 
 # Nonlinear in all that is known, with direct feedthrough, a calculated parameter, a start value that follows from
 # parameters, and a relation.

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf
 
-from fmu_build.c_elimination import print_elimination
-from fmu_build.elimination import eliminate
+from fmu_build.codegen.elimination import print_elimination
+from fmu_build.equations.elimination import eliminate
 
 TOKEN = "{0c9d3f3e-hand-written}"
 

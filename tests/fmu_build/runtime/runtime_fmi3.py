@@ -7,8 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from hand_written import TOKEN
-from runtime_unit import OK, Library
+
+from tests.fmu_build.runtime.hand_written import TOKEN
+from tests.fmu_build.runtime.runtime_unit import OK, Library
 
 LOG = ct.CFUNCTYPE(None, ct.c_void_p, ct.c_int, ct.c_char_p, ct.c_char_p)
 UPDATE = ct.CFUNCTYPE(

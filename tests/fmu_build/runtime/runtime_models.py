@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hand_written import Model, Variable
+from tests.fmu_build.runtime.hand_written import Model, Variable
 
 
 def _car_trailer() -> Model:

@@ -11,7 +11,8 @@ from pathlib import Path
 
 import fmpy
 import numpy as np
-from hand_written import TOKEN, Model
+
+from tests.fmu_build.runtime.hand_written import TOKEN, Model
 
 ROOT = Path(__file__).parents[3]
 RUNTIME = ROOT / "fmu_build" / "runtime"
@@ -225,11 +226,12 @@ def compile_sources(model: Model, folder: Path, fmi: int, flags: list[str], extr
     for name, text in model.files().items():
         (folder / name).write_text(text, encoding="utf-8")
     other = {2: "fmi3", 3: "fmi2"}[fmi]
-    runtime = [file for file in sorted(RUNTIME.glob("*.c")) if not file.name.startswith(other)]
+    runtime = [file for file in sorted(RUNTIME.rglob("*.c")) if file.parent.name != other]
+    folders = [f"-I{part}" for part in (RUNTIME, *RUNTIME.iterdir()) if part.is_dir()]
     sources = [*runtime, Path(__file__).parent / extra, *sorted(folder.glob("*.c"))]
     compiler = os.environ.get("CC") or shutil.which("cc") or shutil.which("gcc")
     assert compiler is not None, "these tests need a C compiler"
-    command = [compiler, *flags, f"-I{folder}", f"-I{RUNTIME}", f"-isystem{FMI_HEADERS}", *map(str, sources)]
+    command = [compiler, *flags, f"-I{folder}", *folders, f"-isystem{FMI_HEADERS}", *map(str, sources)]
     subprocess.run([*command, "-o", str(folder / output), "-lm"], check=True)
     return folder / output
 

@@ -18,11 +18,11 @@ from itertools import product
 from pathlib import Path
 
 import numpy as np
-from generated_models import GeneratedModel, generate
-from runtime_unit import OK, Library, Unit, compile_model, load
 
 from overrun_hitch.parameters import DATUM, Parameters
 from tests.energy import G_N, NAMES, Account, account
+from tests.fmu_build.runtime.generated_models import GeneratedModel, generate
+from tests.fmu_build.runtime.runtime_unit import OK, Library, Unit, compile_model, load
 
 LIBRARY = Path(__file__).parents[3] / "modelica" / "OverrunHitch"
 STEP, BEYOND, LONGEST = 0.01, 10.0, 300.0  # s

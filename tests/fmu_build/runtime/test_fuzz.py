@@ -6,11 +6,12 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from coupled_models import TOWED
-from fuzz import fuzzer
-from generated_models import EVENTS, generate
-from hand_written import Model
-from runtime_models import CAR_TRAILER, OSCILLATOR
+
+from tests.fmu_build.runtime.coupled_models import TOWED
+from tests.fmu_build.runtime.fuzz import fuzzer
+from tests.fmu_build.runtime.generated_models import EVENTS, generate
+from tests.fmu_build.runtime.hand_written import Model
+from tests.fmu_build.runtime.runtime_models import CAR_TRAILER, OSCILLATOR
 
 
 @pytest.mark.parametrize("fmi", [2, 3])

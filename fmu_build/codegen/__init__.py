@@ -1,0 +1,3 @@
+"""Prints C; what is computed when has been decided before."""
+
+__all__ = ["elimination", "model"]

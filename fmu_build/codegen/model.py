@@ -1,0 +1,240 @@
+"""A SortedModel to C: variables.h and model.c, a line for each equation with the place it comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import fields
+
+import sympy
+
+from ..ir.dependencies import needed_for, start_value, steady, tunable_parameters
+from ..ir.equations import Variable
+from ..ir.models import (
+    DEFAULT_TOLERANCE,
+    TOKEN_PLACEHOLDER,
+    Coupling,
+    CSources,
+    JacobianModel,
+    LoopGradient,
+    LoopPartials,
+    Partials,
+    SortedModel,
+)
+from ..ir.symbols import TIME, relation_name
+from .events import event_sizes, print_events
+from .loops import adjoint_lines, check_stack, declare_loops, gradient_lines, name_of, numbered, tangent_lines
+from .text import Printer, assignment_lines, function, identifiers, local_name, string
+
+
+def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str, coupling: Coupling | None = None) -> CSources:
+    """variables.h and model.c of ``model``, with the all-zero placeholder where the content hash will stand."""
+    check_stack(model, jacobian)
+    names = identifiers(model.value_references)
+    header = _header(model, identifier, names, n_couplings=0 if coupling is None else 1)
+    printer = Printer(names, steady(model), numbered(model))
+    text = _model(model, jacobian, printer) + _coupling(coupling, model) + print_events(model, printer)
+    return CSources({"variables.h": header, "model.c": text})
+
+
+def _header(model: SortedModel, identifier: str, names: dict[str, str], n_couplings: int) -> str:
+    tolerance = model.experiment.tolerance or DEFAULT_TOLERANCE
+    fields = "\n".join(f"        double {c}; /* {name} */" for name, c in names.items())
+    return f"""/* Generated from {model.name}: the table of variables. Its order is the FMI value reference. */
+#ifndef VARIABLES_H
+#define VARIABLES_H
+
+#define MODEL_NAME "{identifier}"
+#define MODEL_TOKEN "{TOKEN_PLACEHOLDER}"
+#define DEFAULT_TOLERANCE {tolerance!r}
+#define N_COUPLINGS {n_couplings}
+#define N_LOOPS {len(numbered(model))}
+#define HAS_EVENTS {int(not model.schedule.is_empty)}
+
+enum {{
+    N_STATES = {len(model.states)},
+    N_INPUTS = {len(model.inputs)},
+    N_PARAMETERS = {len(model.parameters)},
+    N_RELATIONS = {len(model.relations)},
+    N_VARIABLES = {len(names)}{event_sizes(model)}
+}};
+
+typedef union {{
+    struct {{
+{fields}
+    }};
+    double at[N_VARIABLES];
+}} Variables;
+
+#endif
+"""
+
+
+def _model(model: SortedModel, jacobian: JacobianModel, printer: Printer) -> str:
+    relations = ", ".join(string(f"{r.text} ({r.origin})") for r in model.relations) or '""'
+    kinds = _kinds(model)
+    rows = "\n".join(_info(name, kinds[name], model) for name in model.value_references)
+    outputs = assignment_lines(model.assignments, printer)
+    derivatives = assignment_lines(needed_for(model.derivatives, model), printer)
+    residuals = [relation_name(i) for i in range(len(model.relations))]
+    references = [str(model.value_references[name]) for name in residuals] or ["0"]
+    sections = [
+        declare_loops(model, printer.text, lambda assignments: assignment_lines(assignments, printer)),
+        function("model_parameters(Variables *v)", assignment_lines(model.parameter_assignments, printer)),
+        function("model_start(Variables *v, const bool holds[])", assignment_lines(model.start_assignments, printer)),
+        function("model_derivatives(Variables *v, const bool holds[])", derivatives),
+        function("model_outputs(Variables *v, const bool holds[])", outputs),
+        _jacobian(model, jacobian, printer),
+        function("model_relations(Variables *v, const bool holds[], double z[])", _relations(model, printer)),
+        _chain("model_tangent", jacobian, printer, _tangent),
+        _chain("model_adjoint", jacobian, printer, _adjoint),
+    ]
+    return f"""/* Generated from {model.name}. Each line bears the place in the Modelica source that it comes from. */
+#include "model.h"
+
+#include <math.h>
+
+#include "elementary.h"
+#include "event_time.h"
+#include "loops.h"
+
+const VariableInfo variable_info[N_VARIABLES] = {{
+{rows}
+}};
+
+const char *const relation_text[AT_LEAST_ONE(N_RELATIONS)] = {{{relations}}};
+
+const unsigned relation_reference[AT_LEAST_ONE(N_RELATIONS)] = {{{", ".join(references)}}};
+
+""" + "\n".join(sections)
+
+
+def _coupling(coupling: Coupling | None, model: SortedModel) -> str:
+    """The table of the coupling's variables, if there is one."""
+    if coupling is None:
+        return ""
+    rows = [
+        f"    .{field.name} = {model.value_references[name]}, /* {name} */"
+        for field in fields(coupling)
+        for name in [getattr(coupling, field.name)]
+    ]
+    return "\n".join(["", "const CouplingInfo coupling_info = {", *rows, "};", ""])
+
+
+Direction = Callable[[Iterable[Partials | LoopPartials], Printer], list[str]]
+
+
+def _chain(name: str, jacobian: JacobianModel, printer: Printer, lines: Direction) -> str:
+    """The chain rule through all assignments, in one direction."""
+    start = [f"    {line}" for line in lines(jacobian.start_partials, printer)]
+    blocks = [
+        lines(jacobian.parameter_partials, printer),
+        ["if (at_start) {", *start, "}"] if start else [],
+        lines(jacobian.partials, printer),
+    ]
+    ordered = blocks if lines is _tangent else blocks[::-1]
+    signature = f"{name}(const Variables *v, const bool holds[], bool at_start, Variables *d)"
+    return function(signature, [line for block in ordered for line in block])
+
+
+def _tangent(partials: Iterable[Partials | LoopPartials], printer: Printer) -> list[str]:
+    """``d->y = dy/da d->a + dy/db d->b``"""
+    lines = []
+    for p in partials:
+        if isinstance(p, LoopPartials):
+            lines += tangent_lines(name_of(p.loop, printer.loops), p, printer.text, printer.seed)
+            continue
+        terms = [_product(value, printer.seed(name), printer) for name, value in p.by_argument]
+        lines.append(f"{printer.seed(p.target)} = {' + '.join(terms) or '0.0'}; /* {p.origin} */")
+    return lines
+
+
+def _adjoint(partials: Iterable[Partials | LoopPartials], printer: Printer) -> list[str]:
+    """In the reverse order ``d->a += dy/da d->y``, ``d->b += dy/db d->y``"""
+    lines = []
+    for p in reversed(list(partials)):
+        if isinstance(p, LoopPartials):
+            lines += adjoint_lines(name_of(p.loop, printer.loops), p, printer.text, printer.seed)
+            continue
+        lines += [
+            f"{printer.seed(name)} += {_product(value, printer.seed(p.target), printer)}; /* {p.origin} */"
+            for name, value in p.by_argument
+        ]
+    return lines
+
+
+def _product(value: sympy.Expr, factor: str, printer: Printer) -> str:
+    return factor if value == 1 else f"-{factor}" if value == -1 else f"({printer.text(value)})*{factor}"
+
+
+def _relations(model: SortedModel, printer: Printer) -> list[str]:
+    """Each residual goes to z as soon as it is known: read back later, in pairs, it would stall (1 % of a run)."""
+    index = {relation_name(i): i for i in range(len(model.relations))}
+    lines = []
+    for block in needed_for(list(index), model):
+        lines += assignment_lines([block], printer)
+        lines += [f"z[{index[name]}] = v->{printer.names[name]};" for name in block.targets if name in index]
+    return lines
+
+
+def _chained(jacobian: JacobianModel, printer: Printer) -> list[str]:
+    """The local derivatives, in their order."""
+    lines: list[str] = []
+    factored: set[str] = set()
+    results = (*jacobian.entries.values(), *jacobian.time_entries.values())
+    used = set().union(*(a.arguments for a in jacobian.assignments), *(value.free_symbols for value in results))
+    used_names = {s.name: local_name(s.name) for s in used}
+    for number, a in enumerate(jacobian.assignments):
+        if isinstance(a, LoopGradient):
+            name = name_of(a.loop, printer.loops)
+            lines += gradient_lines(name, a, number, name not in factored, printer.text, used_names)
+            factored.add(name)
+        else:
+            lines.append(f"const double {local_name(a.target)} = {printer.text(a.expression)}; /* {a.origin} */")
+    return lines
+
+
+def _jacobian(model: SortedModel, jacobian: JacobianModel, printer: Printer) -> str:
+    lines = _chained(jacobian, printer)
+    lines.append("for (int i = 0; i < N_STATES; i++) time_derivative[i] = 0.0;" if model.states else "")
+    for index, ((row, column), value) in enumerate(jacobian.entries.items()):
+        comment = f"{model.derivatives[row]} by {model.states[column]}"
+        lines.append(f"jacobian[{index}] = {printer.text(value)}; /* {comment} */")
+    lines += [f"time_derivative[{row}] = {printer.text(value)};" for row, value in jacobian.time_entries.items()]
+    signature = "model_jacobian(const Variables *v, const bool holds[], double jacobian[], double time_derivative[])"
+    return function(signature, [line for line in lines if line])
+
+
+def _info(name: str, kind: str, model: SortedModel) -> str:
+    variable = model.variables.get(name, Variable(name, unit="s" if name == TIME else ""))
+    numbers = ", ".join(
+        _number(value)
+        for value in (
+            start_value(name, model),
+            -float("inf") if variable.min is None else variable.min,
+            float("inf") if variable.max is None else variable.max,
+            1.0 if variable.nominal is None else abs(variable.nominal),
+        )
+    )
+    return f"    {{{string(name)}, {string(variable.unit)}, {variable.type.upper()}, {kind}, {numbers}}},"
+
+
+def _kinds(model: SortedModel) -> dict[str, str]:
+    """The VariableKind of every variable; where two apply, the later one."""
+    kinds: dict[str, Iterable[str]] = {
+        "OTHER": model.value_references,
+        "TIME": (TIME,),
+        "STATE": model.states,
+        "STATE_CALCULATED": model.calculated_states,
+        "DERIVATIVE": model.derivatives,
+        "INPUT": model.inputs,
+        "FIXED_PARAMETER": model.parameters,
+        "PARAMETER": tunable_parameters(model),
+        "CALCULATED_PARAMETER": (*(a.target for a in model.parameter_assignments), *model.free_parameters),
+    }
+    return {name: kind for kind, names in kinds.items() for name in names}
+
+
+def _number(value: float) -> str:
+    if value in (float("inf"), -float("inf")):
+        return "(double)INFINITY" if value > 0 else "-(double)INFINITY"
+    return repr(float(value))

@@ -1,0 +1,149 @@
+"""Pieces of C: names, expressions, assignments, functions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from typing import Any
+
+import sympy
+from sympy.printing.c import C11CodePrinter
+
+from ..ir.equations import Block, Loop
+from ..ir.symbols import no_number, power, reach_time, round_down, time_left
+from .loops import name_of
+
+C_KEYWORDS = frozenset(C11CodePrinter.reserved_words) | {"inline", "restrict", "bool", "true", "false", "at"}
+
+
+def identifiers(names: Iterable[str]) -> dict[str, str]:
+    """Modelica names to distinct C names: ``der(car.body.v)`` to ``der_car_body_v``."""
+    result: dict[str, str] = {}
+    taken: set[str] = set()
+    for name in names:
+        identifier = re.sub(r"\W+", "_", name).strip("_")
+        while identifier in taken or identifier in C_KEYWORDS:
+            identifier += "_"
+        taken.add(identifier)
+        result[name] = identifier
+    return result
+
+
+class Printer(C11CodePrinter):  # type: ignore[misc]
+    """C expressions over ``v->name``; doubles with the digits that give them back exactly.
+
+    ``steady`` are names of variables that do not change while the states do, ``loops`` the loops by their C names.
+    """
+
+    def __init__(self, names: dict[str, str], steady: frozenset[str], loops: dict[str, Loop]) -> None:
+        super().__init__({"math_macros": {}})  # C11 has no M_PI
+        self.names = names
+        self.steady = steady
+        self.loops = loops
+
+    def _print_Symbol(self, expr: sympy.Symbol) -> str:
+        if expr.name in self.names:
+            return f"v->{self.names[expr.name]}"
+        return expr.name if expr.name.startswith("holds[") else local_name(expr.name)
+
+    def _print_Float(self, expr: sympy.Float) -> str:
+        return repr(float(expr))
+
+    def _print_Integer(self, expr: sympy.Integer) -> str:
+        return f"{int(expr)}.0"
+
+    def _print_Rational(self, expr: sympy.Rational) -> str:
+        return f"{expr.p}.0/{expr.q}.0"
+
+    def _print_Mul(self, expr: sympy.Mul) -> str:
+        """A quotient of what is known early comes first: no other operation has to wait for that division."""
+        moving = [s for s in expr.free_symbols if s.name not in self.steady]
+        known, rest = expr.as_independent(*moving, as_Add=False)
+        if rest == 1 or known.is_number or sympy.denom(known).is_number:
+            return str(super()._print_Mul(expr))
+        return f"({self._print(known)})*{self.parenthesize(rest, sympy.printing.precedence.PRECEDENCE['Mul'])}"
+
+    def _print_Pow(self, expr: sympy.Pow) -> str:
+        base, exponent = expr.as_base_exp()
+        if exponent.is_Integer and 2 <= abs(int(exponent)) <= 4:
+            factor = self.parenthesize(base, sympy.printing.precedence.PRECEDENCE["Atom"])
+            product = "*".join([factor] * abs(int(exponent)))
+            return f"({product})" if exponent > 0 else f"1.0/({product})"
+        return str(super()._print_Pow(expr))
+
+    def _print_NumberSymbol(self, expr: sympy.NumberSymbol) -> str:
+        return repr(float(expr))
+
+    def _print_power(self, expr: power) -> str:
+        base, exponent = (self._print(argument) for argument in expr.args)
+        return f"pow({base}, {exponent})"
+
+    def _print_no_number(self, expr: no_number) -> str:
+        return "(double)NAN"
+
+    def _print_reach_time(self, expr: reach_time) -> str:
+        value, rest, slope = (self._print(argument) for argument in expr.args)
+        return f"((({value}) - ({rest}))/({slope}))"
+
+    def _print_time_left(self, expr: time_left) -> str:
+        until, time = (self._print(argument) for argument in expr.args)
+        return f"time_left({until}, {time})"
+
+    def _print_round_down(self, expr: round_down) -> str:
+        return f"floor({self._print(expr.args[0])})"
+
+    def _print_sin(self, expr: sympy.sin) -> str:
+        return f"sine({self._print(expr.args[0])})"
+
+    def _print_atan(self, expr: sympy.atan) -> str:
+        return f"arctangent({self._print(expr.args[0])})"
+
+    def _print_Or(self, expr: sympy.Or) -> str:
+        """With the brackets that compilers ask for."""
+        arguments = sorted(expr.args, key=sympy.default_sort_key)
+        return " || ".join(f"({self._print(a)})" if isinstance(a, sympy.And) else self._print(a) for a in arguments)
+
+    def _print_Piecewise(self, expr: sympy.Piecewise) -> str:
+        *branches, (last, _) = expr.args
+        text = str(self._print(last))
+        for value, condition in reversed(branches):
+            text = f"({self._print(condition)} ? {self._print(value)} : {text})"
+        return text
+
+    def text(self, expression: sympy.Expr) -> str:
+        """The C of an expression."""
+        return str(self.doprint(expression))
+
+    def seed(self, name: str) -> str:
+        """The tangent or adjoint of a variable."""
+        return f"d->{self.names[name]}"
+
+
+def local_name(name: str) -> str:
+    """The C name of a partial derivative: ``d(car.tyre.F)/d(car.body.v)`` to ``d_car_tyre_F__d_car_body_v``."""
+    return "__".join(re.sub(r"\W+", "_", part).strip("_") for part in name.split("/"))
+
+
+def function(signature: str, lines: list[str]) -> str:
+    """A C function; parameters that its lines do not use are marked so."""
+    body = re.sub(r"/\*.*?\*/|->\w+", "", "\n".join(lines))  # comments and fields may have the same name
+    arguments = re.findall(r"(\w+)(?:\[\])?[,)]", signature)
+    unused = [f"(void){a};" for a in arguments if not re.search(rf"\b{a}\b", body)]
+    text = "\n".join(f"    {line}" for line in [*unused, *lines])
+    return f"void {signature}\n{{\n{text}\n}}\n"
+
+
+def assignment_lines(blocks: Iterable[Block], printer: Printer) -> list[str]:
+    """A line for each, with the place that it comes from."""
+    return [
+        f"{name_of(block, printer.loops)}_solve(v, holds);"
+        if isinstance(block, Loop)
+        else f"v->{printer.names[block.target]} = {printer.text(block.expression)}; /* {block.origin} */"
+        for block in blocks
+    ]
+
+
+def string(text: Any) -> str:
+    """A string literal."""
+    escaped = str(text).replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{escaped}"'

@@ -1,0 +1,139 @@
+"""A FlatModel to an EquationSystem: bindings become equations, aliases go, states are chosen.
+
+A variable that is differentiated is a state, unless an equation ties it to other states alone, as
+``compression = x_t - x_c`` does. Then one of them, that with the least stateSelect, is computed from the others, and
+one more derivative follows from the total time derivative of that equation. A fixed start value of the one that is
+computed is passed on to one whose start value is free.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+
+import sympy
+
+from ..errors import BuildError
+from ..ir.equations import Assignment, Equation, Relation, Variable, is_free
+from ..ir.events import DiscreteEquations
+from ..ir.models import EquationSystem, FlatModel
+from ..ir.substitution import substitute
+from ..ir.symbols import der, derivative_of, holds, pre, symbol
+from .aliases import Names, constants_and_roots, find_aliases, with_starts_of_aliases
+from .index_reduction import reduce_index
+from .states import choose_states, symbols_of
+
+
+def derive(model: FlatModel) -> EquationSystem:
+    """The equation system of ``model``; BuildError where it is not balanced or needs index reduction."""
+    variables = {variable.name: variable for variable in model.variables}
+    bindings = [
+        Equation(symbol(v.name) - v.binding, v.origin)
+        for v in model.variables
+        if v.variability == "continuous" and v.binding is not None
+    ]
+    equations = [*model.equations, *bindings]
+    aliases = find_aliases(equations, variables)
+    model = replace(model, variables=with_starts_of_aliases(model.variables, aliases))
+    variables = {variable.name: variable for variable in model.variables}
+    values = constants_and_roots(variables, aliases)
+    relations, truths = _unique_relations(model.relations, values)
+    replacements = {**values, **truths}
+    reduced = [Equation(e.residual.xreplace(replacements), e.origin) for e in equations]
+    reduced = [e for e in reduced if e.residual != 0]
+    parameters, bound = _parameters(variables, aliases, replacements)
+    inputs = tuple(v.name for v in model.variables if v.causality == "input")
+    algebraics = [
+        v.name
+        for v in model.variables
+        if v.variability == "continuous" and v.name not in aliases and v.causality != "input"
+    ]
+    _refuse_input_derivatives(reduced, inputs)
+    before = symbols_of(reduced)
+    given = [
+        Equation(symbol(n) - start, variables[n].origin)
+        for n in algebraics
+        if variables[n].fixed and (start := variables[n].start) is not None and symbol(der(n)) not in before
+    ]  # fixed start values of what is no state
+    chosen, reduced, starts, differentiated = choose_states(reduced, algebraics, variables)
+    index_one = reduce_index(reduced, differentiated, chosen, variables)
+    given += index_one.given
+    states, reduced = index_one.states, index_one.equations
+    occurring, state_names = symbols_of(reduced), set(states)
+    derivatives = [name for name in (der(n) for n in algebraics) if symbol(name) in occurring]
+    initial = substitute((*model.initial_equations, *given), replacements)
+    derivatives += sorted(s.name for s in occurring if derivative_of(s.name)[1] > 1)
+    unknowns = (*derivatives, *(n for n in algebraics if n not in state_names))
+    return EquationSystem(
+        model=model,
+        states=tuple(states),
+        invariants=tuple(index_one.invariants),
+        inputs=inputs,
+        unknowns=unknowns,
+        equations=tuple(reduced),
+        relations=relations,
+        parameters=parameters,
+        bound_parameters=bound,
+        starts={name: starts[name].xreplace(values) for name in states if name in starts},
+        aliases=aliases,
+        events=_events(substitute(model.events, replacements), tuple(states), aliases),
+        initial_equations=tuple(e for e in initial if e.residual != 0),
+        starts_before=tuple(
+            Assignment(pre(v.name), v.start.xreplace(values), v.origin)
+            for v in model.variables
+            if v.variability == "discrete" and v.start is not None
+        ),
+    )
+
+
+def _events(events: DiscreteEquations, states: tuple[str, ...], aliases: Names) -> DiscreteEquations:
+    """What happens at events, in states: they have no other value before an event than that which reinit replaces."""
+    reinits = [replace(r, state=aliases.get(r.state, r.state)) for r in events.reinits]
+    for reinit in reinits:
+        if reinit.state not in states:
+            raise BuildError(
+                f"{reinit.origin}: reinit({reinit.state}, ...): it is no state, give it an equation with der()"
+            )
+    before = {symbol(pre(state)): symbol(state) for state in states}
+    return substitute(replace(events, reinits=tuple(reinits)), before)
+
+
+def _refuse_input_derivatives(equations: Iterable[Equation], inputs: Iterable[str]) -> None:
+    rates = {symbol(der(name)): name for name in inputs}
+    for equation in equations:
+        for s in equation.residual.free_symbols & rates.keys():
+            raise BuildError(
+                f"{equation.origin}: this needs the time derivative of the input {rates[s]}: not supported; make the"
+                " derivative an input of its own, or put a filter behind the input"
+            )
+
+
+def _unique_relations(
+    relations: tuple[Relation, ...], values: Mapping[sympy.Symbol, sympy.Expr]
+) -> tuple[tuple[Relation, ...], dict[sympy.Symbol, sympy.Symbol]]:
+    """Relations with equal residuals are one, so that they switch together. A residual may contain earlier truths."""
+    unique: dict[sympy.Expr, Relation] = {}
+    positions: dict[sympy.Expr, int] = {}
+    truths: dict[sympy.Symbol, sympy.Symbol] = {}
+    for index, relation in enumerate(relations):
+        residual = relation.residual.xreplace({**values, **truths})
+        until = None if relation.until is None else relation.until.xreplace({**values, **truths})
+        unique.setdefault(residual, Relation(residual, relation.text, relation.origin, until))
+        truths[holds(index)] = holds(positions.setdefault(residual, len(positions)))
+    return tuple(unique.values()), truths
+
+
+def _parameters(
+    variables: Mapping[str, Variable], aliases: Names, replacements: Mapping[sympy.Symbol, sympy.Expr]
+) -> tuple[tuple[str, ...], dict[str, Equation]]:
+    """Names of the parameters that can be set, and the equations of those that follow from others."""
+    settable: list[str] = []
+    bound: dict[str, Equation] = {}
+    for v in variables.values():
+        if v.variability != "parameter" or v.name in aliases or symbol(v.name) in replacements or is_free(v):
+            continue
+        if v.binding is None or v.binding.is_number:
+            settable.append(v.name)
+        else:
+            bound[v.name] = Equation(symbol(v.name) - v.binding.xreplace(replacements), v.origin)
+    return tuple(settable), bound

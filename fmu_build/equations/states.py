@@ -1,0 +1,79 @@
+"""Which differentiated variables are states, and which follow from those by an equation among them alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import sympy
+
+from ..errors import BuildError
+from ..ir.equations import Equation, Variable
+from ..ir.symbols import TIME, der, symbol
+from .index_reduction import varies
+from .start_point import starts_fit
+
+
+def symbols_of(equations: Iterable[Equation]) -> set[sympy.Symbol]:
+    """All that occurs in the equations."""
+    return set().union(*(e.residual.free_symbols for e in equations))
+
+
+def choose_states(
+    equations: list[Equation], algebraics: list[str], variables: Mapping[str, Variable]
+) -> tuple[tuple[str, ...], list[Equation], dict[str, sympy.Expr], list[Equation]]:
+    """The states, the equations with those that are added, the start values of the states, and what was
+    differentiated."""
+    differentiated: list[Equation] = []
+    names = {symbol(n): n for n in algebraics}
+    present = symbols_of(equations)
+    states = [n for n in algebraics if symbol(der(n)) in present]
+    starts = {n: sympy.Integer(0) if (start := variables[n].start) is None else start for n in states}
+    fixed = {n for n in states if variables[n].fixed}
+    derivatives = {symbol(der(n)) for n in algebraics}
+    result = list(equations)
+    for equation in equations:
+        symbols = equation.residual.free_symbols
+        occurring = [names[s] for s in symbols if s in names]
+        if not occurring or symbols & derivatives or not set(occurring) <= set(states):
+            continue
+        candidates = sorted(
+            occurring,
+            key=lambda n: (variables[n].state_select, n in fixed, variables[n].start is not None, -algebraics.index(n)),
+        )
+        demoted = next((n for n in candidates if not varies(equation.residual.diff(symbol(n)), variables)), None)
+        if demoted is None:
+            continue  # reduce_index() keeps all of them
+        if demoted in fixed:
+            free = next((n for n in reversed(candidates) if n not in fixed), None)
+            if free is not None:
+                starts[free] = _start_from_others(equation, free, starts)
+                fixed.add(free)
+            elif not starts_fit([equation], candidates, variables):
+                raise BuildError(
+                    f"{equation.origin}: this equation ties the states {', '.join(candidates)} to each other, and their"
+                    " fixed start values contradict it: drop fixed=true from the one that follows from the others"
+                )
+        states.remove(demoted)
+        differentiated.append(equation)
+        result.append(Equation(_total_derivative(equation, demoted, set(occurring), variables), equation.origin))
+    return tuple(states), result, starts, differentiated
+
+
+def _start_from_others(equation: Equation, name: str, starts: Mapping[str, sympy.Expr]) -> sympy.Expr:
+    """The start value that the equation, linear in ``name``, gives it where the others have theirs."""
+    slope = equation.residual.diff(symbol(name))
+    solution = -equation.residual.xreplace({symbol(name): sympy.Integer(0)}) / slope
+    return solution.xreplace({symbol(n): start for n, start in starts.items() if n != name})
+
+
+def _total_derivative(
+    equation: Equation, demoted: str, occurring: set[str], variables: Mapping[str, Variable]
+) -> sympy.Expr:
+    """der(demoted) less what the chain rule makes of it."""
+    residual = equation.residual
+    moving = {name for name in occurring if name != demoted}
+    for s in residual.free_symbols:
+        if s.name in variables and variables[s.name].causality == "input":
+            raise BuildError(f"{equation.origin}: this needs the time derivative of the input {s.name}: not supported")
+    rates = sum((residual.diff(symbol(n)) * symbol(der(n)) for n in sorted(moving)), residual.diff(symbol(TIME)))
+    return symbol(der(demoted)) + rates / residual.diff(symbol(demoted))

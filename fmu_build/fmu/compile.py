@@ -1,0 +1,149 @@
+"""C sources to a shared library: with this machine's compiler for itself, with ``zig cc`` for any platform."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import platform as machine
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ..errors import BuildError
+
+RUNTIME = Path(__file__).parents[1] / "runtime"
+WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Wdouble-promotion")
+# No fused multiply-add: the same source gives the same digits on every machine.
+OPTIONS = ("-std=c11", "-O3", "-ffp-contract=off", "-fPIC", "-shared", "-fvisibility=hidden", *WARNINGS)
+
+
+@dataclass(frozen=True)
+class Platform:
+    """Where a library runs. ``name`` is FMI 3's platform tuple and the name of its folder there.
+
+    ``zig_target`` names the oldest system that the library is to run on; None: this machine, by its own compiler.
+    """
+
+    name: str
+    fmi2_folder: str
+    suffix: str
+    zig_target: str | None
+
+    @property
+    def fmi3_folder(self) -> str:
+        """The folder under binaries/ in an FMI 3 FMU."""
+        return self.name
+
+
+# FMI 2.0.5 names linux64, win64 and darwin64, for x86 alone, and refers to FMI 3's tuples for everything else. On Apple
+# silicon importers look into darwin64 all the same (FMPy there only), so that its library is one for both processors.
+PLATFORMS = {
+    p.name: p
+    for p in (
+        Platform("x86_64-linux", "linux64", ".so", "x86_64-linux-gnu.2.17"),
+        Platform("aarch64-linux", "aarch64-linux", ".so", "aarch64-linux-gnu.2.17"),
+        Platform("x86_64-windows", "win64", ".dll", "x86_64-windows-gnu"),
+        Platform("x86_64-darwin", "darwin64", ".dylib", "x86_64-macos.11.0"),
+        Platform("aarch64-darwin", "darwin64", ".dylib", "aarch64-macos.11.0"),
+    )
+}
+PROCESSORS = {"x86_64": "x86_64", "amd64": "x86_64", "aarch64": "aarch64", "arm64": "aarch64"}
+
+
+def host_platform() -> Platform:
+    """This machine, to be compiled for by its own compiler."""
+    system, processor = machine.system(), machine.machine()
+    name = f"{PROCESSORS.get(processor.lower(), processor)}-{system.lower()}"
+    if name not in PLATFORMS:
+        raise BuildError(f"platform {name}: no FMU can be built for it; known are {', '.join(PLATFORMS)}")
+    return replace(PLATFORMS[name], zig_target=None)
+
+
+def named_platforms(names: Sequence[str]) -> tuple[Platform, ...]:
+    """Platforms by name, each once, in the order of the table; "all" is all of them, "host" this machine.
+
+    "host" alone is compiled for by this machine's own compiler, and runs on systems as new as this one. Among others
+    it gets what they get: zig, and the oldest system that the table names.
+    """
+    for name in names:
+        if name not in {"host", "all", *PLATFORMS}:
+            allowed = ", ".join(("host", "all", *PLATFORMS))
+            raise BuildError(f"platform {name!r} is not known: allowed are {allowed}")
+    if not names:
+        raise BuildError("no platform is named")
+    if set(names) == {"host"}:
+        return (host_platform(),)
+    chosen = {host_platform().name if name == "host" else name for name in names}
+    return tuple(p for p in PLATFORMS.values() if p.name in chosen or "all" in chosen)
+
+
+def zig_compiler() -> list[str] | None:
+    """The command of the C compiler that the package ziglang ships; None where that is not installed."""
+    spec = importlib.util.find_spec("ziglang")
+    if spec is None or spec.origin is None:
+        return None
+    return [str(Path(spec.origin).parent / ("zig.exe" if os.name == "nt" else "zig")), "cc"]
+
+
+def compiler() -> list[str]:
+    """This machine's C compiler: the environment variable CC if it is set, else cc, else zig's."""
+    command = os.environ.get("CC", "cc").split()
+    if command and shutil.which(command[0]) is not None:
+        return command
+    zig = zig_compiler()
+    if zig is None or "CC" in os.environ:
+        name = command[0] if command else "CC"
+        raise BuildError(f"no C compiler: {name!r} was not found; install gcc or clang, or set CC to a C11 compiler")
+    return zig
+
+
+def fmi_headers() -> Path:
+    """The folder with the standard's C headers, as the installed fmpy package ships them."""
+    spec = importlib.util.find_spec("fmpy")
+    if spec is None or spec.origin is None:
+        raise BuildError("the package fmpy, which ships the FMI headers, is not installed")
+    return Path(spec.origin).parent / "c-code"
+
+
+def compile_library(folder: Path, library: Path, platform: Platform) -> None:
+    """Compile the C files of ``folder`` (model, runtime and facade) to the shared library ``library``.
+
+    The bytes depend on the sources, the platform, the compiler and, for this machine, the environment variable CFLAGS
+    alone: names of files given to the compiler are relative to ``folder``. What a linker leaves beside the library
+    (import library, debug symbols) is dropped.
+    """
+    sources = sorted(file.name for file in folder.glob("*.c"))
+    with tempfile.TemporaryDirectory(prefix="fmu_build-cache-") as cache:
+        # Objects are of no further use; what lasts is zig's own cache of the targets' C libraries.
+        environment = {"ZIG_LOCAL_CACHE_DIR": cache, **os.environ}
+        linked = Path(f"link-{platform.name}") / library.name
+        (folder / linked).parent.mkdir()
+        try:
+            command = [*_command(platform, library.name), "-I.", f"-isystem{fmi_headers()}", *sources]
+            command += ["-o", linked.as_posix(), *([] if platform.suffix == ".dll" else ["-lm"])]
+            _run(command, folder, environment)
+            library.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(folder / linked, library)
+        finally:
+            shutil.rmtree((folder / linked).parent)
+
+
+def _command(platform: Platform, library: str) -> list[str]:
+    install_name = [f"-Wl,-install_name,@rpath/{library}"] if platform.suffix == ".dylib" else []
+    if platform.zig_target is None:
+        return [*compiler(), *OPTIONS, *os.environ.get("CFLAGS", "").split(), *install_name]
+    zig = zig_compiler()
+    if zig is None:
+        raise BuildError(f"platform {platform.name}: the package ziglang, which compiles for it, is not installed")
+    return [*zig, "-target", platform.zig_target, "-s", *OPTIONS, *install_name]
+
+
+def _run(command: list[str], folder: Path, environment: dict[str, str]) -> None:
+    result = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+    if result.returncode != 0:
+        lines = result.stderr.splitlines()
+        first = next((line for line in lines if "error" in line), lines[0] if lines else f"status {result.returncode}")
+        raise BuildError(f"{Path(command[0]).name} failed: {first}")

@@ -1,0 +1,51 @@
+"""Everything in an FMU but the binaries: path in the archive to content. Only this differs between FMI 2 and 3."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..ir.models import TOKEN_PLACEHOLDER, CSources, FlatModel, Simulation
+from . import xml_fmi2, xml_fmi3
+from .compile import RUNTIME, fmi_headers
+from .documentation import document
+from .icon import draw_icon
+from .interface import Interface
+from .reference import reference_files
+
+LICENSE = Path(__file__).parents[2] / "LICENSE"
+SOURCES = "sources/"
+
+
+def contents(
+    flat: FlatModel, interface: Interface, generated: CSources, references: Sequence[Simulation], fmi: int
+) -> dict[str, bytes]:
+    """The files of an FMI 2 or FMI 3 unit, with the placeholder where its token will stand."""
+    sources = {file.name: file.read_bytes() for file in _hand_written(fmi)}
+    sources |= {name: text.encode() for name, text in generated.files.items()}
+    compiled = sorted(name for name in sources if name.endswith(".c"))
+    icon = draw_icon(flat.icon, interface.identifier)
+    if fmi == 2:
+        picture = "model.png"
+        files = {"modelDescription.xml": xml_fmi2.describe(interface, TOKEN_PLACEHOLDER, compiled)}
+    else:
+        picture = "terminalsAndIcons/icon.png"
+        files = {
+            "modelDescription.xml": xml_fmi3.describe(interface, TOKEN_PLACEHOLDER),
+            "terminalsAndIcons/terminalsAndIcons.xml": xml_fmi3.describe_ports(interface),
+            f"{SOURCES}buildDescription.xml": xml_fmi3.describe_build(interface.identifier, compiled),
+        }
+    files |= {f"{SOURCES}{name}": content for name, content in sources.items()}
+    evidence = reference_files(interface, references)
+    page = document(interface, flat.documentation, f"../{picture}", has_references=bool(evidence))
+    files["documentation/index.html"] = page
+    files["documentation/licenses/LICENSE.txt"] = LICENSE.read_bytes()
+    files[picture] = icon
+    return files | evidence
+
+
+def _hand_written(fmi: int) -> list[Path]:
+    """The runtime with the facade of one version of the standard, and that version's headers."""
+    other = {2: "fmi3", 3: "fmi2"}[fmi]
+    runtime = [file for file in RUNTIME.rglob("*.[ch]") if file.parent.name != other]
+    return sorted([*runtime, *fmi_headers().glob(f"fmi{fmi}*.h")])

@@ -1,0 +1,3 @@
+"""The values that pass between stages, and the algebra on them."""
+
+__all__ = ["conditions", "dependencies", "equations", "events", "linear", "models", "substitution", "symbols", "units"]

@@ -1,0 +1,86 @@
+"""What depends on what: slices and dependencies of a SortedModel."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TypeVar
+
+import sympy
+
+from .equations import Assignment, Block
+from .models import LoopGradient, SortedModel
+from .symbols import symbol
+
+
+def needed_for(targets: Iterable[str], model: SortedModel) -> tuple[Block, ...]:
+    """The assignments, in order, that computing ``targets`` takes."""
+    return reaching({symbol(name) for name in targets}, model.assignments)
+
+
+def dependencies(model: SortedModel) -> dict[str, frozenset[str]]:
+    """For each computed variable the states, inputs, parameters and time that it depends on at a fixed time.
+
+    A conditional depends on what its condition depends on.
+    """
+    leaves = (*model.states, *model.inputs, *model.parameters, *model.free_parameters, "time")
+    known = {name: frozenset((name,)) for name in leaves}
+    result: dict[str, frozenset[str]] = dict(known)
+    schedule = model.schedule
+    for block in (
+        *model.parameter_assignments,
+        *schedule.assignments,
+        *model.assignments,
+        *schedule.check_assignments,
+    ):
+        result |= dict.fromkeys(block.targets, _sources(block.arguments, model, result))
+    return {name: sources for name, sources in result.items() if name not in known}
+
+
+def tunable_parameters(model: SortedModel) -> frozenset[str]:
+    """The parameters, calculated ones included, that more than start values depend on: changing them has an effect."""
+    sources = dependencies(model)
+    schedule = model.schedule
+    used = (*model.assignments, *schedule.assignments, *schedule.check_assignments)
+    effective = frozenset().union(*(sources.get(name, frozenset()) for block in used for name in block.targets))
+    effective &= {*model.parameters}
+    calculated = {a.target for a in model.parameter_assignments if sources[a.target] & effective}
+    return effective | calculated
+
+
+def steady(model: SortedModel) -> frozenset[str]:
+    """What follows from parameters and inputs alone: it does not change while the states do."""
+    sources = dependencies(model)
+    moving = {*model.states, "time"}
+    return frozenset((*model.parameters, *model.inputs)) | {name for name in sources if not sources[name] & moving}
+
+
+def start_value(name: str, model: SortedModel) -> float:
+    """The start value of a state, parameter or input as a number; 0 where it is calculated or not given."""
+    if name in model.start_values:
+        return model.start_values[name]
+    variable = model.variables.get(name)
+    if variable is None or name not in {*model.parameters, *model.inputs}:
+        return 0.0
+    value = variable.start if variable.binding is None else variable.binding
+    return 0.0 if value is None else float(value)
+
+
+def _sources(arguments: set[sympy.Symbol], model: SortedModel, result: dict[str, frozenset[str]]) -> frozenset[str]:
+    symbols = set(arguments)
+    for index in sorted(int(s.name[6:-1]) for s in arguments if s.name.startswith("holds[")):
+        symbols |= model.relations[index].residual.free_symbols
+    return frozenset().union(*(result.get(s.name, frozenset()) for s in symbols))
+
+
+Computed = TypeVar("Computed", Assignment, Block, Assignment | LoopGradient)
+
+
+def reaching(wanted: set[sympy.Symbol], blocks: Sequence[Computed]) -> tuple[Computed, ...]:
+    """Those of the sorted ``blocks`` that computing ``wanted`` takes, in their order."""
+    kept: list[Computed] = []
+    wanted = set(wanted)
+    for block in reversed(blocks):
+        if any(symbol(target) in wanted for target in block.targets):
+            kept.append(block)
+            wanted |= block.arguments
+    return tuple(reversed(kept))

@@ -1,0 +1,89 @@
+"""Pictures of a crosscheck: compression of all FMUs on one another, and its difference from A's in the funnel."""
+
+from __future__ import annotations
+
+import io
+import math
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from overrun_hitch.comparison.crosscheck import LABELS, Allowed, Crosscheck, funnel_around
+from overrun_hitch.results import values
+from overrun_hitch.show.traces import STYLE
+
+Floats = NDArray[np.float64]
+
+# Told apart by dashes and by lightness; what is drawn later lets show what lies beneath.
+LINES: list[dict[str, Any]] = [
+    {"color": "#0b3c6f", "linestyle": "-", "linewidth": 2.2},
+    {"color": "#d55e00", "linestyle": (0, (5, 2.5)), "linewidth": 1.5},
+    {"color": "#009e73", "linestyle": (0, (6, 2, 1, 2)), "linewidth": 1.4},
+    {"color": "#7a7a7a", "linestyle": (0, (1.2, 1.8)), "linewidth": 1.6},
+    {"color": "#56b4e9", "linestyle": (0, (10, 3)), "linewidth": 1.3},
+]
+BAND: dict[str, Any] = {"color": "#dddddd", "linewidth": 0.0, "zorder": 0.5}
+MILLI = 1000.0
+
+
+def draw(check: Crosscheck, names: list[str], allowed: Allowed) -> Figure:
+    """Two panels for one scenario; `names` of the FMUs in the order of its runs."""
+    reference = check.runs[0]
+    time, a = values(reference, "time"), values(reference, "compression")
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(6.4, 5.2), layout="constrained")
+        figure.suptitle(f"{check.scenario.name[:1].upper()}{check.scenario.name[1:]}", fontsize=10)
+        above, below = figure.subplots(2, 1, sharex=True)
+        if np.isfinite(a).all():
+            funnel = funnel_around(reference, reference, "compression", allowed)
+            below.fill_between(time, MILLI * (funnel.lower - a), MILLI * (funnel.upper - a), label="funnel", **BAND)
+        for i, run in enumerate(check.runs):
+            trace, line = values(run, "compression"), LINES[i % len(LINES)]
+            above.plot(values(run, "time"), trace, label=f"{LABELS[i]}  {_short(names[i])}", **line)
+            if i > 0:
+                both = min(len(a), len(trace))
+                below.plot(time[:both], MILLI * (trace[:both] - a[:both]), label=f"{LABELS[i]} less A", **line)
+        _label(above, "Compression (m)", columns=2)
+        _label(below, "Difference (mm)", columns=5)
+        below.set_xlabel("Time (s)")
+        below.set_xlim(0.0, float(time[-1]))
+        # An FMU that runs away must not flatten the others.
+        _limit(above, a, 3.0 * float(np.ptp(a)))
+        _limit(below, np.zeros(1), MILLI * float(np.ptp(a)))
+        figure.align_ylabels()
+    return figure
+
+
+def files(figure: Figure) -> dict[str, bytes]:
+    """The picture by kind of file, "png" and "svg"; the same runs give the same bytes."""
+    kinds: dict[str, dict[str, Any]] = {"png": {"dpi": 200}, "svg": {"metadata": {"Date": None}}}
+    contents = {}
+    with mpl.rc_context(STYLE):
+        for kind, options in kinds.items():
+            buffer = io.BytesIO()
+            figure.savefig(buffer, format=kind, **options)
+            contents[kind] = buffer.getvalue()
+    return contents
+
+
+def _label(axes: Axes, name: str, columns: int) -> None:
+    axes.set_ylabel(name)
+    # Above the panel, where there are no curves.
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.01), ncols=columns, borderaxespad=0.0, fontsize=9)
+
+
+def _limit(axes: Axes, around: Floats, farthest: float) -> None:
+    """Keep what is shown within `farthest` of the values `around`."""
+    if not (math.isfinite(farthest) and farthest > 0.0):
+        return
+    low, high = axes.get_ylim()
+    axes.set_ylim(max(low, float(around.min()) - farthest), min(high, float(around.max()) + farthest))
+
+
+def _short(name: str) -> str:
+    shortened = name if len(name) <= 32 else f"{name[:14]}...{name[-15:]}"
+    return shortened.replace("$", r"\$")  # matplotlib would set it as a formula

@@ -1,0 +1,171 @@
+"""Car.fmu and Trailer.fmu coupled as masters couple them: step by step, speed one way and force the other.
+
+What a scheme does to the oscillation, for light damping (k in N/m, H the step in s, m_c = M_c + I_c/R_c^2): a force
+that reaches the car late by T takes damping away, and the growth rate of the shunting mode rises by k T / (2 m_c). A
+force or a speed that is held over a step is late by H/2 on average; one taken from the end of the last step is held so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from overrun_hitch.fmu.messages import StepRefused
+from overrun_hitch.fmu.opening import opened
+from overrun_hitch.fmu.unit import Unit
+from overrun_hitch.parameters import Parameters
+
+Floats = NDArray[np.float64]
+
+FORCES = {"F_hitch": 1.0, "F_hitch_mean": 2.0, "F_hitch_hold": 3.0}  # output: value of applied_force
+TRAILER_OUTPUTS = ("compression", "v_rel", "v_trailer", "F_hitch", "coupling_energy", "ball.impulse", "ball.work")
+CAR_OUTPUTS = ("v_car", "a_car", "car.body.x")
+SHARED = ("mu", "sigma", "C_rr", "V_0")
+CAR_PARAMETERS = ("M_c", "I_c", "R_c", "C_kc", "CdA_c", *SHARED)
+TRAILER_PARAMETERS = tuple(name for name in Parameters.model_fields if name in SHARED or name not in CAR_PARAMETERS)
+AGREED = 1e-10  # m/s: iterations end when the car's speed at the end of a step moves by less
+ITERATIONS = 50
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """How a master exchanges speed and force."""
+
+    name: str
+    what: str
+    order: str  # "parallel", "trailer first", "car first" or "iterated"
+    force: str  # the output of the trailer that the car gets
+    extrapolation: float  # 1: the trailer extrapolates the car's speed inside a step; 0: it is held
+    lateness: float  # steps by which force and speed are late in all: T / H of the closed form
+
+
+SCHEMES = (
+    Scheme("jacobi", "Jacobi, values held", "parallel", "F_hitch", 0.0, 1.0),
+    Scheme("jacobi-speed", "Jacobi, speed extrapolated", "parallel", "F_hitch", 1.0, 0.5),
+    Scheme("jacobi-hold", "Jacobi, speed extrapolated, F_hitch_hold", "parallel", "F_hitch_hold", 1.0, 0.0),
+    Scheme("trailer-first", "Gauss-Seidel, trailer first, speed held", "trailer first", "F_hitch", 0.0, 0.0),
+    Scheme("trailer-mean", "Gauss-Seidel, trailer first, speed extrapolated, F_hitch_mean", "trailer first",
+           "F_hitch_mean", 1.0, 0.0),
+    Scheme("car-first", "Gauss-Seidel, car first, speed interpolated", "car first", "F_hitch", 0.0, 0.5),
+    Scheme("iterated", "iterated with rollback, F_hitch_mean", "iterated", "F_hitch_mean", 0.0, 0.0),
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Coupled:
+    """A coupled run at the communication points (n,), SI units."""
+
+    time: Floats
+    values: Mapping[str, Floats]  # CAR_OUTPUTS and TRAILER_OUTPUTS
+    given: Floats  # N.s, the impulse that the car has got
+    created: Floats  # J, work done on the car less work that the trailer did: what the coupling has fed in
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Both units, open."""
+
+    car: Unit
+    trailer: Unit
+
+    def run(
+        self, scheme: Scheme, parameters: Parameters, brake_torque: float, duration: float, H: float, tolerance: float
+    ) -> Coupled:
+        """`duration` s in steps of H s, from the start of `parameters`, braked by `brake_torque` N.m."""
+        p = parameters.model_dump()
+        self.car.start_with({name: p[name] for name in CAR_PARAMETERS} | {"brake_torque": brake_torque}, tolerance)
+        settings = {"v_car": p["V_0"], "extrapolation": scheme.extrapolation, "applied_force": FORCES[scheme.force]}
+        self.trailer.start_with({name: p[name] for name in TRAILER_PARAMETERS} | settings, tolerance)
+        force = self.trailer.get([scheme.force])[0]
+        advance = ADVANCES[scheme.order]
+        rows, given, created = [self._outputs()], [0.0], [0.0]
+        for n in range(round(duration / H)):
+            applied, force = advance(self, scheme, n * H, H, force)
+            rows.append(self._outputs())
+            given.append(given[-1] + applied * H)
+            place, work = CAR_OUTPUTS.index("car.body.x"), len(CAR_OUTPUTS) + TRAILER_OUTPUTS.index("ball.work")
+            moved, done = rows[-1][place] - rows[-2][place], rows[-1][work] - rows[-2][work]
+            created.append(created[-1] + applied * moved - done)
+        table = np.array(rows).T
+        names = (*CAR_OUTPUTS, *TRAILER_OUTPUTS)
+        time: Floats = np.arange(len(rows), dtype=np.float64) * H
+        return Coupled(time, dict(zip(names, table, strict=True)), np.array(given), np.array(created))
+
+    def _outputs(self) -> list[float]:
+        return [*self.car.get(CAR_OUTPUTS), *self.trailer.get(TRAILER_OUTPUTS)]
+
+    def speed(self) -> float:
+        """The car's speed in m/s."""
+        return self.car.get(["v_car"])[0]
+
+
+def _parallel(pair: Pair, scheme: Scheme, time: float, H: float, force: float) -> tuple[float, float]:
+    """One step; the force (N) that the car got, and the one that it is to get next."""
+    pair.trailer.set({"v_car": pair.speed()})
+    pair.car.set({"F_hitch": force})
+    pair.trailer.step(time, H)
+    pair.car.step(time, H)
+    return force, pair.trailer.get([scheme.force])[0]
+
+
+def _trailer_first(pair: Pair, scheme: Scheme, time: float, H: float, force: float) -> tuple[float, float]:
+    pair.trailer.set({"v_car": pair.speed()})
+    pair.trailer.step(time, H)
+    force = pair.trailer.get([scheme.force])[0]
+    pair.car.set({"F_hitch": force})
+    pair.car.step(time, H)
+    return force, force
+
+
+def _car_first(pair: Pair, scheme: Scheme, time: float, H: float, force: float) -> tuple[float, float]:
+    before = pair.speed()
+    pair.car.set({"F_hitch": force})
+    pair.car.step(time, H)
+    pair.trailer.set({"v_car": before})
+    pair.trailer.set_slopes({"v_car": (pair.speed() - before) / H})
+    pair.trailer.step(time, H)
+    return force, pair.trailer.get([scheme.force])[0]
+
+
+def _iterated(pair: Pair, scheme: Scheme, time: float, H: float, force: float) -> tuple[float, float]:
+    """Repeat the step until the speed that the trailer was given is the speed that the car then has."""
+    before = pair.speed()
+    end = before + H * pair.car.get(["a_car"])[0]
+    with pair.car.saved() as back_car, pair.trailer.saved() as back_trailer:
+        for _ in range(ITERATIONS):
+            pair.trailer.set({"v_car": before})
+            pair.trailer.set_slopes({"v_car": (end - before) / H})
+            pair.trailer.step(time, H)
+            force = pair.trailer.get([scheme.force])[0]
+            pair.car.set({"F_hitch": force})
+            pair.car.step(time, H)
+            guess, end = end, pair.speed()
+            if abs(end - guess) < AGREED:
+                break
+            back_car()
+            back_trailer()
+        else:
+            raise StepRefused(f"at t = {time:g} s {ITERATIONS} iterations with H = {H:g} s do not converge")
+    return force, force
+
+
+ADVANCES: Mapping[str, Callable[[Pair, Scheme, float, float, float], tuple[float, float]]] = {
+    "parallel": _parallel,
+    "trailer first": _trailer_first,
+    "car first": _car_first,
+    "iterated": _iterated,
+}
+
+
+@contextmanager
+def opened_pair(car: Path, trailer: Path) -> Iterator[Pair]:
+    """Both FMU files open. HitchError as for unit.opened."""
+    car_names = [*CAR_OUTPUTS, *CAR_PARAMETERS, "brake_torque", "F_hitch"]
+    trailer_names = [*TRAILER_OUTPUTS, *TRAILER_PARAMETERS, *FORCES, "v_car", "extrapolation", "applied_force"]
+    with opened(car, car_names, "a car") as first, opened(trailer, trailer_names, "a trailer") as second:
+        yield Pair(first, second)

@@ -1,0 +1,126 @@
+"""What coupling does to the shunting oscillation: growth rate and created energy over the step, scheme by scheme.
+
+The manoeuvre is that of free_vibration.py: a small vibration about gentle steady braking, the speed in the middle of
+the run being V. What the pair shows beyond CarTrailer.fmu, the same model in one piece, is the coupling's.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from overrun_hitch.coupling.pair import SCHEMES, Coupled, Pair, Scheme
+from overrun_hitch.experiments.free_vibration import DECELERATION, SHARE, MeasuredMode, measured_mode
+from overrun_hitch.fmu.messages import StepRefused
+from overrun_hitch.fmu.unit import HitchUnit
+from overrun_hitch.measure.oscillation import NoOscillation, measure
+from overrun_hitch.parameters import HitchError, Parameters
+from overrun_hitch.theory.linear import shunting_mode
+from overrun_hitch.theory.steady import steady
+
+DURATION = 6.0  # s
+ONSET = 0.1  # s: the wheels have taken up the brake torque
+RELATIVE_TOLERANCE = 1e-9
+LONGEST_STEP = 0.1  # s: longer ones see fewer than six points of an oscillation of 1.6 Hz
+
+
+@dataclass(frozen=True)
+class Point:
+    """One scheme at one step."""
+
+    scheme: Scheme
+    H: float  # s
+    growth_rate: float  # 1/s; NaN where nothing could be measured
+    frequency: float  # Hz
+    created: float  # J, what the coupling has fed in at the end of the run, by the pair's own works
+    told: float  # J, the same as the trailer tells it in coupling_energy; it is one step behind
+    expected: float  # 1/s, rise of the growth rate by the closed form for light damping
+
+
+@dataclass(frozen=True)
+class CouplingStudy:
+    """All schemes over all steps, and the model in one piece."""
+
+    parameters: Parameters
+    V: float  # m/s
+    whole: MeasuredMode
+    points: tuple[Point, ...]
+
+    def of(self, scheme: Scheme) -> list[Point]:
+        """The points of a scheme, by rising H."""
+        return sorted((point for point in self.points if point.scheme == scheme), key=lambda point: point.H)
+
+
+def study_coupling(
+    pair: Pair,
+    whole: HitchUnit,
+    parameters: Parameters,
+    V: float,
+    steps: Iterable[float],
+    progress: Callable[[str], object] = lambda _: None,
+    schemes: Sequence[Scheme] = SCHEMES,
+) -> CouplingStudy:
+    """Run every scheme at every step H (s). HitchError where there is nothing to measure: see measured_mode."""
+    mode = measured_mode(whole, parameters, V)
+    points = []
+    for H in steps:
+        progress(f"steps of {1000.0 * H:g} ms")
+        points += [_point(pair, scheme, parameters, V, H) for scheme in schemes]
+    return CouplingStudy(parameters, V, mode, tuple(points))
+
+
+def check_step(H: float) -> None:
+    """HitchError for a communication step (s) that is none, or longer than a tenth of a second."""
+    if not 0.0 < H <= LONGEST_STEP:
+        raise HitchError(f"H = {H:g} s is not allowed: the step must be greater than 0 s, at most {LONGEST_STEP:g} s")
+
+
+def longest_stable_step(scheme: Scheme, parameters: Parameters, V: float) -> float:
+    """The step (s) at which this scheme makes the combination shunt by itself, by the closed form (light damping).
+
+    0 where it does so without any coupling, infinite where the scheme delays nothing to first order.
+    """
+    decay = -float(shunting_mode(parameters, V).growth_rate)
+    if decay <= 0.0:
+        return 0.0
+    rise = rise_per_second(scheme, parameters)
+    return decay / rise if rise > 0.0 else math.inf
+
+
+def rise_per_second(scheme: Scheme, parameters: Parameters) -> float:
+    """The rise of the growth rate (1/s) for each second of H: see coupling.py."""
+    return scheme.lateness * parameters.k / (2.0 * (parameters.M_c + parameters.I_c / parameters.R_c**2))
+
+
+def gentle_braking(parameters: Parameters, V: float) -> tuple[Parameters, float]:
+    """The start of the manoeuvre, and its brake torque in N.m."""
+    torque = DECELERATION / abs(steady(parameters, 1.0).A)
+    braking = steady(parameters, torque)
+    compression = parameters.eps + (braking.D - parameters.eps) * (1.0 + SHARE)
+    return parameters.changed({"V_0": V - 0.5 * DURATION * braking.A, "compression_start": compression}), torque
+
+
+def _point(pair: Pair, scheme: Scheme, parameters: Parameters, V: float, H: float) -> Point:
+    check_step(H)
+    start, torque = gentle_braking(parameters, V)
+    expected = rise_per_second(scheme, parameters) * H
+    try:
+        run = pair.run(scheme, start, torque, DURATION, H, RELATIVE_TOLERANCE)
+    except StepRefused:  # the coupling has let the motion grow until the model ends, or does not converge
+        return Point(scheme, H, math.nan, math.nan, math.nan, math.nan, expected)
+    growth, frequency = _oscillation(run)
+    created, told = float(run.created[-1]), float(run.values["coupling_energy"][-1])
+    return Point(scheme, H, growth, frequency, created, told, expected)
+
+
+def _oscillation(run: Coupled) -> tuple[float, float]:
+    """Growth rate (1/s) and frequency (Hz) of the compression."""
+    seen = run.time >= ONSET
+    compression = run.values["compression"][seen]
+    if not np.isfinite(compression).all():
+        return math.nan, math.nan
+    found = measure(run.time[seen], compression)
+    return (math.nan, math.nan) if isinstance(found, NoOscillation) else (found.growth_rate, found.frequency)

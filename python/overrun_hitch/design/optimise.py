@@ -1,0 +1,143 @@
+"""The smallest value of one parameter with which the shunting mode is damped as wanted at every speed of a range.
+
+Linear theory finds it, the FMU confirms it by free vibrations (free_vibration.py) and tells what it costs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq, minimize_scalar
+
+from overrun_hitch.experiments.free_vibration import measured_mode
+from overrun_hitch.experiments.step_brake import brake
+from overrun_hitch.fmu.settings import Settings
+from overrun_hitch.fmu.unit import HitchUnit
+from overrun_hitch.measure.judged import Judged
+from overrun_hitch.measure.metrics import NEEDED, Traces, measured
+from overrun_hitch.parameters import HitchError, Parameters, Quantities, Scenario, quantity
+from overrun_hitch.results import values
+from overrun_hitch.theory.linear import shunting_mode
+
+Floats = NDArray[np.float64]
+
+SPEEDS = 33  # looked at, before the worst is refined
+VALUES = 200  # of the free parameter, looked at for the first that reaches the ratio
+COSTS = ("trailer_brake_delay", "peak_jerk", "peak_compression")
+SETTINGS = Settings(relative_tolerance=1e-8, communication_step=0.01)
+# What a measured damping ratio may be off: growth rate and frequency of a free vibration drift with the falling speed.
+ALLOWED = 0.005  # relative
+
+
+class Wanted(Quantities):
+    """The damping ratio to reach, at every speed from V_low to V_high."""
+
+    ratio: float = quantity(0.1, "1", "damping ratio", gt=0.0, lt=0.95)
+    V_low: float = quantity(10.0, "m/s", "lowest speed", ge=1.0)
+    V_high: float = quantity(40.0, "m/s", "highest speed", ge=1.0)
+
+
+@dataclass(frozen=True)
+class Optimum:
+    """What was found."""
+
+    name: str  # of the free parameter
+    before: Parameters
+    after: Parameters
+    worst: float  # m/s, the speed with the least damping
+    damping: tuple[Judged, ...]  # at the worst speed and the ends of the range: theory, and the FMU
+    costs: Mapping[str, tuple[float, float]]  # metric: before, after; step brake at V_high
+
+
+def optimise(unit: HitchUnit, parameters: Parameters, name: str, low: float, high: float, wanted: Wanted) -> Optimum:
+    """The smallest `name` from `low` to `high` (SI units) that is enough, confirmed. HitchError if none is."""
+    value, worst = smallest(parameters, name, low, high, wanted)
+    after = parameters.changed({name: value})
+    speeds = dict.fromkeys((worst, wanted.V_low, wanted.V_high))
+    return Optimum(
+        name=name,
+        before=parameters,
+        after=after,
+        worst=worst,
+        damping=tuple(_confirmed(unit, after, V) for V in speeds),
+        costs=_costs(unit, parameters, after, wanted.V_high),
+    )
+
+
+def smallest(parameters: Parameters, name: str, low: float, high: float, wanted: Wanted) -> tuple[float, float]:
+    """By linear theory: the smallest value and the speed (m/s) with the least damping there."""
+    if not wanted.V_low < wanted.V_high:
+        raise HitchError(f"speeds from {wanted.V_low:g} to {wanted.V_high:g} m/s are an empty range")
+    if not low < high:
+        raise HitchError(f"{name} from {low:g} to {high:g} {Parameters.unit(name)} is an empty range")
+
+    def excess(value: float) -> float:
+        return least_damping(parameters.changed({name: float(value)}), wanted)[0] - wanted.ratio
+
+    candidates = np.linspace(low, high, VALUES)
+    found = np.array([excess(value) for value in candidates])
+    if not (found >= 0.0).any():
+        best = int(found.argmax())
+        raise HitchError(
+            f"no {name} from {low:g} to {high:g} {Parameters.unit(name)} gives a damping ratio of {wanted.ratio:g} at "
+            f"all speeds from {wanted.V_low:g} to {wanted.V_high:g} m/s; the most is "
+            f"{found[best] + wanted.ratio:.4g} with {name} = {candidates[best]:.4g}"
+        )
+    first = int((found >= 0.0).argmax())
+    value = float(candidates[0]) if first == 0 else float(brentq(excess, candidates[first - 1], candidates[first]))
+    return value, least_damping(parameters.changed({name: value}), wanted)[1]
+
+
+def least_damping(parameters: Parameters, wanted: Wanted) -> tuple[float, float]:
+    """The least damping ratio from V_low to V_high and the speed (m/s) at which it is, by linear theory."""
+    speeds = np.linspace(wanted.V_low, wanted.V_high, SPEEDS)
+    ratios = shunting_mode(parameters, speeds).damping_ratio
+    place = int(ratios.argmin())
+    if place in (0, SPEEDS - 1):
+        return float(ratios[place]), float(speeds[place])
+    found = minimize_scalar(
+        lambda V: float(shunting_mode(parameters, V).damping_ratio),
+        bounds=(speeds[place - 1], speeds[place + 1]),
+        method="bounded",
+    )
+    return (
+        (float(found.fun), float(found.x))
+        if found.fun < ratios[place]
+        else (float(ratios[place]), float(speeds[place]))
+    )
+
+
+def _confirmed(unit: HitchUnit, parameters: Parameters, V: float) -> Judged:
+    theory = float(shunting_mode(parameters, V).damping_ratio)
+    eigenvalue = measured_mode(unit, parameters, V).eigenvalue
+    found = -eigenvalue.real / abs(eigenvalue)
+    return Judged(f"damping ratio at {V:.4g} m/s", "1", theory, found, ALLOWED * theory)
+
+
+def _costs(unit: HitchUnit, before: Parameters, after: Parameters, V: float) -> dict[str, tuple[float, float]]:
+    """The metrics COSTS of step brakes at V (m/s), before and after."""
+    runs = [
+        brake(unit, Scenario(name="cost", parameters=each.changed({"V_0": V})), SETTINGS) for each in (before, after)
+    ]
+    length = min(run.sizes["time"] for run in runs)
+    traces = Traces(
+        values(runs[0], "time")[:length],
+        {name: np.array([values(run, name)[:length] for run in runs]) for name in NEEDED},
+        np.array([before.eps, after.eps]),
+    )
+    return {name: (float(found[0]), float(found[1])) for name, found in measured(COSTS, traces).items()}
+
+
+def default_range(parameters: Parameters, name: str) -> tuple[float, float]:
+    """From the lowest value allowed, or a hundredth of the present one, to ten times it. HitchError where that is 0."""
+    present = float(getattr(parameters, name))
+    if not present > 0.0:
+        raise HitchError(f"{name} = {present:g} {Parameters.unit(name)} gives no range to look in: say --range A:B")
+    try:
+        parameters.changed({name: 0.0})
+    except HitchError:
+        return 0.01 * present, 10.0 * present
+    return 0.0, 10.0 * present

@@ -1,0 +1,3 @@
+"""One manoeuvre a module, run on the FMU."""
+
+__all__ = ["free_vibration", "limit_cycle", "linearisation", "step_brake", "stop"]

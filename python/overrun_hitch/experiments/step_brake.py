@@ -1,0 +1,81 @@
+"""Step brakes on the FMU. Every communication point is a multiple of the step, without accumulated rounding."""
+
+from __future__ import annotations
+
+import math
+from importlib.metadata import version
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from overrun_hitch.fmu.opening import opened_unit
+from overrun_hitch.fmu.settings import Settings
+from overrun_hitch.fmu.unit import HitchUnit
+from overrun_hitch.parameters import HitchError, Scenario
+from overrun_hitch.results import VARIABLES, dataset, scenario_attributes
+
+MOST_STEPS = 1_000_000  # a table of 10 columns of that length takes 80 MB
+STANDSTILL = 0.1  # m/s: the paper's slip, a difference over the speed, means nothing at rest
+
+
+def step_brake(
+    scenario: Scenario, *, fmu: Path, relative_tolerance: float = 1e-6, communication_step: float = 0.01
+) -> xr.Dataset:
+    """`brake` on an FMU file that is opened for this one run. HitchError also for a file that is no such FMU."""
+    settings = Settings(relative_tolerance=relative_tolerance, communication_step=communication_step)
+    _communication_points(scenario, settings.communication_step)  # what is wrong with it comes first
+    with opened_unit(fmu) as unit:
+        return brake(unit, scenario, settings)
+
+
+def brake(unit: HitchUnit, scenario: Scenario, settings: Settings) -> xr.Dataset:
+    """Run `scenario` on the unit and sample it at the communication points, t = 0 included (see results.dataset).
+
+    The run ends early, with attribute `ended` = "standstill", before car or trailer comes to rest, where the paper's
+    model ends. HitchError for too many steps or a start at rest; what the unit refuses ends `opened_unit` with a
+    HitchError.
+    """
+    points = _communication_points(scenario, settings.communication_step)
+    unit.start(scenario.parameters, {"brake_torque": scenario.brake_torque}, settings.relative_tolerance)
+    rows = [unit.outputs()]
+    for now, then in pairwise(points.tolist()):
+        if _comes_to_rest(rows[-1], then - now):
+            break
+        unit.step(now, then - now)
+        rows.append(unit.outputs())
+    attributes = {
+        **scenario_attributes(scenario),
+        **settings.model_dump(),
+        "fmu": unit.name,
+        "guid": unit.guid,
+        "ended": "duration" if len(rows) == len(points) else "standstill",
+        "versions": ", ".join(f"{name} {version(name)}" for name in ("fmpy", "numpy", "xarray")),
+    }
+    return dataset(points[: len(rows)], dict(zip(VARIABLES, np.array(rows).T, strict=True)), attributes)
+
+
+def car_alone(scenario: Scenario) -> Scenario:
+    """The same step brake with nothing between car and trailer (k = k_t = C = r = F_0 = 0): the car as if alone."""
+    nothing = dict.fromkeys(("k", "k_t", "k_2", "k_3", "k_buffer", "C", "r", "F_0"), 0.0)
+    loose = scenario.parameters.changed(nothing)
+    return scenario.changed(name=f"{scenario.name}, car alone", parameters=loose)
+
+
+def _communication_points(scenario: Scenario, h: float) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """0, h, 2 h, ... and the end of the run, which a last shorter step may have to reach."""
+    V_0, duration = scenario.parameters.V_0, scenario.duration
+    if V_0 < STANDSTILL:
+        raise HitchError(f"V_0 = {V_0:g} m/s is not allowed: a step brake starts at {STANDSTILL} m/s at least")
+    if duration / h > MOST_STEPS:
+        raise HitchError(f"communication_step = {h:g} s is not allowed: {MOST_STEPS} steps at most in {duration:g} s")
+    steps = math.ceil(duration / h * (1.0 - 1e-12))
+    return np.append(np.arange(steps) * h, duration)
+
+
+def _comes_to_rest(row: list[float], h: float) -> bool:
+    v_car, v_trailer, a_car, a_trailer = row[:4]
+    # Twice the step: an acceleration that grows within it must not carry the run past rest.
+    return min(v_car + 2.0 * h * min(a_car, 0.0), v_trailer + 2.0 * h * min(a_trailer, 0.0)) < STANDSTILL

@@ -1,0 +1,3 @@
+"""Find, open and drive an FMU; the only place that knows fmpy."""
+
+__all__ = ["description", "files", "messages", "opening", "profiles", "sampler", "settings", "unit"]

@@ -1,0 +1,112 @@
+"""FMUs opened in this process, through fmpy. The one module that touches fmpy, which has no types.
+
+fmpy's FMU2Slave is driven directly, not through simulate_fmu: so outputs are read at the start before the first step,
+the unit's own messages are caught instead of printed, and whatever ends a run, the unpacked folder goes and the working
+directory is what it was.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+from fmpy.fmi1 import FMICallException
+
+from overrun_hitch.fmu.messages import StartRefused, StepRefused, refusal
+from overrun_hitch.fmu.sampler import Floats, Sampler
+from overrun_hitch.parameters import Parameters
+from overrun_hitch.results import VARIABLES
+
+
+class Unit:
+    """An instance of an FMU for co-simulation, with names instead of value references; good for any number of runs.
+
+    From `opened`. What the FMU refuses becomes a HitchError in its own words where `opened` ends.
+    """
+
+    def __init__(self, name: str, description: Any, slave: Any, messages: list[str]) -> None:
+        self.name = name
+        self._messages = messages
+        self.guid = str(description.guid)
+        self._slave = slave
+        self._references = {variable.name: variable.valueReference for variable in description.modelVariables}
+        self._derivatives = [unknown.variable for unknown in description.derivatives]
+        self._fresh = True
+
+    def start_with(self, values: Mapping[str, float], relative_tolerance: float) -> None:
+        """From any state to t = 0 of a new run with these parameters and inputs (SI units). StartRefused if not."""
+        self._messages.clear()  # those of the run before
+        try:
+            if not self._fresh:
+                self._slave.reset()
+            self._fresh = False
+            self.set(values)
+            self._slave.setupExperiment(tolerance=relative_tolerance, startTime=0.0)
+            self._slave.enterInitializationMode()
+            self._slave.exitInitializationMode()
+        except FMICallException as error:
+            raise StartRefused(refusal(self.name, self._messages, error)) from None
+
+    def set(self, values: Mapping[str, float]) -> None:
+        """Set inputs, and during a run tunable parameters, by name (SI units)."""
+        self._slave.setReal([self._references[name] for name in values], list(values.values()))
+
+    def set_slopes(self, slopes: Mapping[str, float]) -> None:
+        """How inputs change during the next step, by name, in their units per second."""
+        references = [self._references[name] for name in slopes]
+        self._slave.setRealInputDerivatives(references, [1] * len(references), list(slopes.values()))
+
+    def change(self, values: Mapping[str, float], slopes: Mapping[str, float]) -> None:
+        """Set inputs, and how they change during the next step. StepRefused if the unit doesn't take them."""
+        try:
+            self.set(values)
+            if slopes:
+                self.set_slopes(slopes)
+        except FMICallException as error:
+            raise StepRefused(refusal(self.name, self._messages, error)) from None
+
+    def get(self, names: Sequence[str]) -> list[float]:
+        """Values by name (SI units)."""
+        return list(self._slave.getReal([self._references[name] for name in names]))
+
+    def step(self, time: float, size: float) -> None:
+        """Go on from `time` by `size`, both in s. StepRefused if the unit can't; it may be started again."""
+        try:
+            self._slave.doStep(time, size)
+        except FMICallException as error:
+            raise StepRefused(refusal(self.name, self._messages, error)) from None
+
+    def sampler(self, names: Sequence[str], points: Floats) -> Sampler:
+        """For many runs through the same `points` (n,) in s: see Sampler."""
+        references = [self._references[name] for name in names]
+        return Sampler(self._slave, references, points, lambda error: refusal(self.name, self._messages, error))
+
+    @contextmanager
+    def saved(self) -> Iterator[Callable[[], None]]:
+        """Keep the present state; what is given takes the unit back to it, as often as it is called."""
+        state = self._slave.getFMUstate()
+        try:
+            yield lambda: self._slave.setFMUstate(state)
+        finally:
+            self._slave.freeFMUstate(state)
+
+    def jacobian(self) -> tuple[list[str], Floats]:
+        """Names (n,) of the states and the derivatives (n, n) of their rates by them: the unit's directional ones."""
+        states = [rate.derivative.name for rate in self._derivatives]
+        rates = [rate.valueReference for rate in self._derivatives]
+        columns = [self._slave.getDirectionalDerivative(rates, [self._references[state]], [1.0]) for state in states]
+        return states, np.array(columns, dtype=np.float64).T
+
+
+class HitchUnit(Unit):
+    """CarTrailer.fmu, or another tool's export of it."""
+
+    def start(self, parameters: Parameters, inputs: Mapping[str, float], relative_tolerance: float) -> None:
+        """From any state to t = 0 of a new run with these parameters and inputs (SI units)."""
+        self.start_with({**parameters.model_dump(), **inputs}, relative_tolerance)
+
+    def outputs(self) -> list[float]:
+        """The outputs in the order of results.VARIABLES."""
+        return self.get(list(VARIABLES))

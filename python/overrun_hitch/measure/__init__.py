@@ -1,0 +1,3 @@
+"""Traces to numbers."""
+
+__all__ = ["envelope", "funnel", "judged", "metrics", "oscillation", "passages"]

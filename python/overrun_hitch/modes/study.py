@@ -1,0 +1,146 @@
+"""Linear stability for any parameters: the shunting mode at every damper and speed, as a table, JSON and CSV."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from overrun_hitch.parameters import HitchError, Parameters, Quantities, quantity
+from overrun_hitch.results import write_atomically
+from overrun_hitch.theory.boundary import critical_damping
+from overrun_hitch.theory.linear import compression_matrix, shunting_mode
+from overrun_hitch.theory.steady import steady
+
+MOST = 10_000  # combinations of C and V: about a second
+HARD = 5.0  # m/s2, the deceleration for which the paper's figure 3 gives deflections
+ROUNDING = 1e-12  # of the greatest entry of the matrix: below it an eigenvalue is noise
+# What the linear theory takes from Parameters; C and V_0 stand in the rows, the rest counts in simulations alone.
+TAKEN = ("M_c", "M_t", "I_c", "I_t", "R_c", "R_t", "C_kc", "C_kt", "k", "r", "eps")
+
+
+class Speed(Quantities):
+    """A speed to linearise about; the lowest is that of the FMU."""
+
+    V: float = quantity(20.0, "m/s", "speed", ge=0.1)
+
+
+@dataclass(frozen=True)
+class Row:
+    """The shunting mode at one speed and one damper coefficient."""
+
+    V: float  # m/s
+    C: float  # N.s/m
+    growth_rate: float  # 1/s, positive: self-excited
+    frequency: float  # Hz; 0 where the damper is so strong that the mode creeps back
+    damping_ratio: float  # 1
+    amplitude_ratio: float  # 1, |x_t / x_c|
+    phase: float  # degrees, between x_t and x_c
+    self_excited: bool
+
+
+UNITS: Mapping[str, str] = {
+    "V": "m/s", "C": "N.s/m", "growth_rate": "1/s", "frequency": "Hz", "damping_ratio": "1", "amplitude_ratio": "1",
+    "phase": "deg", "self_excited": "1", "C_crit": "N.s/m", "A_over_A_c": "1", "deceleration": "m/s2", "D": "m",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Boundary:
+    """The damper coefficient with which the shunting mode neither grows nor decays."""
+
+    V: float  # m/s
+    C_crit: float  # N.s/m; 0: stable without a damper
+
+
+@dataclass(frozen=True)
+class Stability:
+    """What linear theory says about a combination."""
+
+    name: str
+    parameters: Parameters
+    rows: tuple[Row, ...]  # speed by speed
+    boundaries: tuple[Boundary, ...]  # one a speed
+    A_over_A_c: float  # 1, steady deceleration over that of the car alone
+    D: float  # m, drawbar compression at the steady deceleration HARD, clearance included
+
+
+def stability(name: str, parameters: Parameters, C: Sequence[float], V: Sequence[float]) -> Stability:
+    """The shunting mode at every C (N.s/m) for every V (m/s); C and V_0 of `parameters` do not count.
+
+    HitchError for values out of range, more than MOST combinations, no shunting mode (k = r = 0), and numbers so large
+    or small that floating point does not suffice.
+    """
+    if len(C) * len(V) > MOST:
+        raise HitchError(f"C and V make {len(C) * len(V)} combinations; allowed: at most {MOST}")
+    speeds = [Speed(V=value).V for value in V]
+    dampers = [parameters.changed({"C": value}) for value in C]
+    try:
+        with np.errstate(over="raise", divide="raise", invalid="raise"):
+            rows = tuple(_row(damped, speed) for speed in speeds for damped in dampers)
+            boundaries = tuple(Boundary(speed, critical_damping(parameters, speed)) for speed in speeds)
+        ratio, D = _steady_state(parameters)
+    except (np.linalg.LinAlgError, ArithmeticError):
+        raise HitchError("the parameters differ by so many orders of magnitude that no modes can be computed") from None
+    return Stability(name=name, parameters=parameters, rows=rows, boundaries=boundaries, A_over_A_c=ratio, D=D)
+
+
+def _steady_state(parameters: Parameters) -> tuple[float, float]:
+    """A/A_c (1), and D (m) at HARD."""
+    unit_torque = steady(parameters, 1.0)
+    D = steady(parameters, -HARD / unit_torque.A).D
+    if not (math.isfinite(unit_torque.ratio) and math.isfinite(D)):
+        raise ArithmeticError
+    return unit_torque.ratio, D
+
+
+def _row(damped: Parameters, V: float) -> Row:
+    mode = shunting_mode(damped, V)
+    growth_rate = float(mode.growth_rate)
+    if abs(mode.eigenvalue) < ROUNDING * np.abs(compression_matrix(damped, V)).max():
+        raise ArithmeticError
+    return Row(
+        V=V,
+        C=damped.C,
+        growth_rate=growth_rate,
+        frequency=float(mode.frequency),
+        damping_ratio=float(mode.damping_ratio),
+        amplitude_ratio=float(mode.amplitude_ratio),
+        phase=float(mode.phase),
+        self_excited=growth_rate > 0.0,
+    )
+
+
+def document(result: Stability, files: Sequence[Path] = ()) -> dict[str, Any]:
+    """Everything with units, ready for json.dumps; `files` are those written beside."""
+    used = {name: getattr(result.parameters, name) for name in TAKEN}
+    return {
+        "name": result.name,
+        "parameters": {name: {"value": value, "unit": Parameters.unit(name)} for name, value in used.items()},
+        "units": dict(UNITS),
+        "steady": {"A_over_A_c": result.A_over_A_c, "deceleration": HARD, "D": result.D},
+        "critical_damping": [asdict(boundary) for boundary in result.boundaries],
+        "shunting_mode": [asdict(row) for row in result.rows],
+        "files": [str(path) for path in files],
+    }
+
+
+def write_csv(result: Stability, path: Path) -> None:
+    """Write the rows with units in the header ("V [m/s],C [N.s/m],..."), every digit kept, self_excited as 1 or 0."""
+    names = [field.name for field in fields(Row)]
+
+    def write(temporary: Path) -> None:
+        with temporary.open("w", encoding="utf-8", newline="") as file:
+            table = csv.writer(file, lineterminator="\n")
+            table.writerow([f"{name} [{UNITS[name]}]" for name in names])
+            for row in result.rows:
+                table.writerow(
+                    [repr(value) if isinstance(value, float) else int(value) for value in asdict(row).values()]
+                )
+
+    write_atomically(path, write)

@@ -1,0 +1,3 @@
+"""The paper"s figures, and what it could not show, drawn."""
+
+__all__ = ["all"]

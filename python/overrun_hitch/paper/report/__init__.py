@@ -1,0 +1,3 @@
+"""All of it on one page."""
+
+__all__ = ["page"]

@@ -1,0 +1,246 @@
+"""What a designer should take from the study: sentences whose numbers are computed, each with whether it is true."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from overrun_hitch.paper.claims.claim import Claim
+from overrun_hitch.paper.study.beyond import CHECKED_RATIOS, CYCLE_SPEED, Boundary, Motion, designed
+from overrun_hitch.paper.study.study import SteadyState, Study
+from overrun_hitch.parameters import CASES, FIGURES
+from overrun_hitch.theory.boundary import critical_damping
+from overrun_hitch.theory.linear import shunting_mode
+
+MILLI = 1000.0
+IN_PROPORTION = 0.01  # by how much C_crit / V may vary over the chart
+SATURATED = 0.1  # by how much C_crit may rise when r/k doubles from STRONG on
+STRONG = 5.0  # m, of r/k
+THE_SAME = 1e-3  # relative: amplitudes that are called equal
+CLOSE = 0.1  # relative error of a good estimate
+OSCILLATING = ("sustained", "unsettled")
+
+
+@dataclass(frozen=True)
+class Lesson:
+    """One conclusion; `holds` says whether the numbers bear it out."""
+
+    heading: str
+    text: str
+    holds: bool
+
+
+def lessons(study: Study, claims: Sequence[Claim]) -> list[Lesson]:
+    """All of them, the most useful first."""
+    return [
+        top_speed(study.boundary),
+        small_oscillations_decide(study.motions),
+        abrupt(study.motions),
+        clearance_and_amplitude(study.motions),
+        clearance_and_frequency(study.motions),
+        strong_brakes(study.boundary, study.steady_fmu),
+        margin(claims),
+        estimate(study.motions),
+    ]
+
+
+def top_speed(found: Boundary) -> Lesson:
+    """C_crit rises in proportion to the speed."""
+    slope = found.C_crit / found.speeds[:, None]
+    spread = float((slope.max(axis=0) / slope.min(axis=0) - 1.0).max())
+    at = {V: critical_damping(CASES["ii"], V) for V in (10.0, CYCLE_SPEED)}
+    low, high = found.speeds[0], found.speeds[-1]
+    text = (
+        "The least damper that keeps the combination from shunting by itself, C_crit, rises in proportion to the "
+        f"speed: between {low:g} and {high:g} m/s C_crit / V varies by {100.0 * spread:.2g} % at most. Case ii needs "
+        f"{at[10.0]:.0f} N.s/m at 10 m/s and {at[CYCLE_SPEED]:.0f} N.s/m at {CYCLE_SPEED:g} m/s. The stiffness of the "
+        "tyres and the inertia of the wheels set the factor: what delays the brake's force is the time that slip "
+        "takes to build up, and it is proportional to the speed."
+    )
+    return Lesson("Size the damper for the top speed.", text, spread < IN_PROPORTION)
+
+
+def small_oscillations_decide(motions: Sequence[Motion]) -> Lesson:
+    """Clearance does not move the boundary."""
+    limit = critical_damping(CASES["ii"], CYCLE_SPEED)
+    above = [motion for motion in motions if limit < motion.C]
+    under = [motion for motion in motions if limit > motion.C]
+    clearances = sorted({motion.eps for motion in motions})
+    text = (
+        f"Linear theory knows no clearance, and still it decides. With C above C_crit = {limit:.1f} N.s/m "
+        f"({', '.join(f'{C:g}' for C in _dampers(above))} N.s/m) all {len(above)} oscillations faded on the FMU; with "
+        f"C below it ({_list(_dampers(under))} N.s/m) none of {len(under)} did, whether the clearance was "
+        f"{_list(clearances)} m. Take up backlash for the sake of comfort and of quick brakes; against shunting only "
+        "the damper helps."
+    )
+    return Lesson("Clearance does not move the boundary.", text, decides(motions))
+
+
+def decides(motions: Sequence[Motion]) -> bool:
+    """Whether C_crit parts what fades from what does not."""
+    limit = critical_damping(CASES["ii"], CYCLE_SPEED)
+    return all((motion.fmu.verdict == "fades") == (limit < motion.C) for motion in motions)
+
+
+def abrupt(motions: Sequence[Motion]) -> Lesson:
+    """What lies just below the boundary is no small oscillation."""
+    largest = max(motion.eps for motion in motions)
+    heading = "A little too little damping is already rough."
+    cycles = sorted((m for m in _cycles(motions) if m.eps == largest), key=lambda motion: -motion.C)
+    if not cycles:
+        return Lesson(heading, f"With a clearance of {largest:g} m no oscillation went on on the FMU.", False)
+    first, last = cycles[0], cycles[-1]
+    limit = critical_damping(CASES["ii"], CYCLE_SPEED)
+    growing = all(
+        less.fmu.amplitude > more.fmu.amplitude
+        for group in _by_clearance(motions)
+        for more, less in pairwise(sorted(group, key=lambda motion: -motion.C))
+    )
+    text = (
+        f"There is no gentle onset. With C = {first.C:g} N.s/m, {100.0 * (1.0 - first.C / limit):.0f} % below C_crit, "
+        f"the drawbar comes to oscillate with an amplitude of {MILLI * first.fmu.amplitude:.1f} mm about a steady "
+        f"compression of {MILLI * first.steady:.1f} mm: once in every cycle the trailer's brake lets go, as it did in "
+        f"every oscillation that went on. The amplitude grows as C falls: with a clearance of {largest:g} m it is "
+        f"{MILLI * last.fmu.amplitude:.0f} mm at C = {last.C:g} N.s/m."
+    )
+    released = all(motion.fmu.lowest < motion.eps for motion in _cycles(motions))
+    return Lesson(heading, text, growing and released)
+
+
+def clearance_and_amplitude(motions: Sequence[Motion]) -> Lesson:
+    """As long as nothing strikes the tension stop, the amplitude does not depend on the clearance."""
+    free = [motion for motion in _cycles(motions) if motion.fmu.lowest > 0.0]
+    groups = [[m for m in free if m.C == C] for C in _dampers(free)]
+    shared = [group for group in groups if len(group) > 1]
+    spread = max((_spread([m.fmu.amplitude for m in group]) for group in shared), default=np.nan)
+    lost = [motion for motion in motions if motion.fmu.verdict == "runs away"]
+    widest = max(shared, key=len, default=[])
+    example = (
+        f"At C = {widest[0].C:g} N.s/m it is {MILLI * widest[0].fmu.amplitude:.1f} mm with "
+        f"{_list([m.eps for m in widest])} m alike (they differ by {spread:.1g} of it). "
+        if widest
+        else ""
+    )
+    away = (
+        "Where the clearance is too small for the oscillation and the damping far too weak "
+        f"({'; '.join(f'C = {m.C:g} N.s/m with {m.eps:g} m' for m in lost)}), the trailer, thrown to and fro between "
+        "its stops, braked so much that the speed fell although the driver had let go of the brake: the table says "
+        "that it runs away."
+        if lost
+        else ""
+    )
+    text = (
+        "As long as the drawbar does not strike its tension stop, the amplitude does not depend on how large the "
+        f"clearance is: it swings in as much of it as it needs. {example}{away}"
+    )
+    return Lesson("More clearance does not mean a larger oscillation.", text.strip(), bool(spread < THE_SAME))
+
+
+def clearance_and_frequency(motions: Sequence[Motion]) -> Lesson:
+    """Clearance lowers the frequency, the tension stop raises it."""
+    linear = float(shunting_mode(CASES["ii"].changed({"C": 100.0}), CYCLE_SPEED).frequency)
+    ordered = sorted(_cycles(motions), key=lambda motion: motion.fmu.amplitude)
+    free = [motion.fmu.frequency for motion in ordered if motion.fmu.lowest > 0.0]
+    without = [motion.fmu.frequency for motion in _cycles(motions) if motion.eps == 0.0]
+    text = (
+        f"Linear theory gives {linear:.2f} Hz. Oscillations that swing through clearance without striking the stop "
+        f"have {_range(free)} Hz: the larger, the slower. Without clearance the drawbar strikes its stop in every "
+        f"cycle and the frequency goes up, to {_range(without)} Hz. A frequency measured on the road so tells which "
+        "of the two it is."
+    )
+    slower = bool((np.diff(free) < THE_SAME).all())
+    holds = slower and max(free, default=np.nan) < linear < min(without, default=np.nan)
+    return Lesson("Clearance lowers the frequency.", text, holds)
+
+
+def strong_brakes(found: Boundary, steady: Mapping[str, SteadyState]) -> Lesson:
+    """C_crit saturates with r/k."""
+    row = int(np.abs(found.speeds - CYCLE_SPEED).argmin())
+    rises = bool((np.diff(found.C_crit[row]) > 0.0).all())
+    weak, _, strong = CHECKED_RATIOS
+    at = {ratio: critical_damping(designed(ratio), CYCLE_SPEED) for ratio in (weak, strong, STRONG, 2.0 * STRONG)}
+    doubled = at[2.0 * STRONG] / at[STRONG] - 1.0
+    text = (
+        f"From case i (r/k = {weak:g} m) to case iii ({strong:g} m) the deceleration ratio A/A_c goes from "
+        f"{steady['i'].ratio:.2f} to {steady['iii'].ratio:.2f}, and C_crit at {CYCLE_SPEED:g} m/s from {at[weak]:.0f} "
+        f"to {at[strong]:.0f} N.s/m, with the spring chosen for the same deflection. Doubling r/k from {STRONG:g} to "
+        f"{2.0 * STRONG:g} m adds only {100.0 * doubled:.1f} %. So a good deceleration is not bought with shunting, "
+        "if the damper is there."
+    )
+    return Lesson("A stronger trailer brake asks for little more damping.", text, rises and doubled < SATURATED)
+
+
+def margin(claims: Sequence[Claim]) -> Lesson:
+    """How much damping is comfortable, and what too much costs."""
+    p = FIGURES["8"].parameters
+    limit, mode = critical_damping(p, p.V_0), shunting_mode(p, p.V_0)
+    delays = [part for claim in claims for part in claim.parts if "delay" in part.what and "figure 11" in part.what]
+    delay = delays[0].fmu
+    more, less = FIGURES["11"].parameters, FIGURES["10"].parameters
+    text = (
+        f"At C_crit oscillations merely do not grow. The damper of figure 8, C = {p.C:g} N.s/m or {p.C / limit:.1f} "
+        f"times C_crit, gives {100.0 * float(mode.damping_ratio):.1f} % of critical damping at {p.V_0:g} m/s, and "
+        f"every oscillation halves in {np.log(2.0) / -float(mode.growth_rate):.1f} s. Too much is not free where "
+        f"there is clearance: with {more.eps:g} m of it, C = {more.C:g} instead of {less.C:g} N.s/m lets the "
+        f"trailer's brakes come {delay:.2f} s later."
+    )
+    holds = limit < p.C and delay > 0.0 and float(mode.growth_rate) < 0.0
+    return Lesson("Leave a margin, but not a wall.", text, holds)
+
+
+def estimate(motions: Sequence[Motion]) -> Lesson:
+    """How far the describing function can be trusted."""
+    limit = critical_damping(CASES["ii"], CYCLE_SPEED)
+    both = [motion for motion in _cycles(motions) if motion.predicted is not None]
+    free = [motion for motion in both if motion.fmu.lowest > 0.0]
+    near = [motion for motion in free if 0.8 * limit < motion.C]
+    struck = [motion for motion in both if motion.fmu.lowest <= 0.0]
+    far = [motion for motion in free if 0.8 * limit >= motion.C]
+    text = (
+        "The describing function needs no simulation. Within 20 % of C_crit and without the stop its amplitude is "
+        f"right to {_worst(near):.0f} %, further below to {_worst(far):.0f} %; where the drawbar strikes its stop it "
+        f"is up to {_worst(struck):.0f} % off. It is good for the question how rough the onset is, and no substitute "
+        "for a run where the stop is struck."
+    )
+    holds = _worst(near) < 100.0 * CLOSE < _worst(struck) and _worst(near) < _worst(far)
+    return Lesson("Use the describing function near the boundary only.", text, holds)
+
+
+def amplitude_error(motion: Motion) -> float:
+    """Predicted amplitude less the FMU's, relative to the FMU's (1); NaN where there are not both."""
+    return np.nan if motion.predicted is None else motion.predicted.amplitude / motion.fmu.amplitude - 1.0
+
+
+def _worst(motions: Iterable[Motion]) -> float:
+    """The largest error of the predicted amplitude in per cent."""
+    return 100.0 * max((abs(amplitude_error(motion)) for motion in motions), default=np.nan)
+
+
+def _cycles(motions: Iterable[Motion]) -> list[Motion]:
+    return [motion for motion in motions if motion.fmu.verdict in OSCILLATING]
+
+
+def _by_clearance(motions: Sequence[Motion]) -> list[list[Motion]]:
+    cycles = _cycles(motions)
+    return [[motion for motion in cycles if motion.eps == eps] for eps in sorted({m.eps for m in cycles})]
+
+
+def _dampers(motions: Iterable[Motion]) -> list[float]:
+    return sorted({motion.C for motion in motions})
+
+
+def _spread(values: Sequence[float]) -> float:
+    return (max(values) - min(values)) / min(values)
+
+
+def _range(values: Sequence[float]) -> str:
+    return f"{min(values):.2f} to {max(values):.2f}" if values else "no"
+
+
+def _list(values: Sequence[float]) -> str:
+    """ "0, 0.02 or 0.1"."""
+    words = [f"{value:g}" for value in values]
+    return " or ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))

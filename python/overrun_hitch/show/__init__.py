@@ -1,0 +1,3 @@
+"""Terminal and traces: how tables, files and progress are told."""
+
+__all__ = ["terminal", "traces"]

@@ -1,0 +1,115 @@
+"""The traces of the paper's figures 6 to 11: accelerations, drawbar compression and wheel slips over time."""
+
+from __future__ import annotations
+
+import io
+import textwrap
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from overrun_hitch.parameters import HitchError, Scenario
+from overrun_hitch.results import scenario_of, values, write_atomically
+from overrun_hitch.theory.steady import Steady, steady
+
+# Dark and solid against mid-tone and dashed: told apart in greyscale and by the colour-blind.
+CAR: dict[str, Any] = {"color": "#0b3c6f", "linestyle": "-", "linewidth": 1.3}
+TRAILER: dict[str, Any] = {"color": "#d55e00", "linestyle": (0, (5, 1.6)), "linewidth": 1.3}
+THEORY: dict[str, Any] = {"color": "#777777", "linestyle": (0, (1, 1.5)), "linewidth": 1.1, "zorder": 1.5}
+
+STYLE: dict[Any, Any] = {
+    "font.size": 10.0,
+    "axes.grid": True,
+    "grid.color": "#dddddd",
+    "grid.linewidth": 0.6,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "legend.frameon": False,
+    "legend.handlelength": 2.6,
+    "svg.hashsalt": "overrun_hitch",  # the same run gives the same file
+}
+KINDS: dict[str, dict[str, Any]] = {"png": {"dpi": 200}, "svg": {"metadata": {"Date": None}}}
+
+
+def draw(run: xr.Dataset) -> Figure:
+    """The three panels of a step brake (see results.dataset), with theory's steady values as thin dotted lines."""
+    scenario = scenario_of(run)
+    theory = _theory(scenario)
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(6.4, 6.6), layout="constrained")
+        figure.suptitle(_title(scenario), fontsize=10)
+        accelerations, compression, slips = figure.subplots(3, 1, sharex=True)
+        time = values(run, "time")
+        for axes, car, trailer, scale in (
+            (accelerations, "a_car", "a_trailer", 1.0),
+            (slips, "slip_car", "slip_trailer", 100.0),
+        ):
+            axes.plot(time, scale * values(run, car), label="car", **CAR)
+            axes.plot(time, scale * values(run, trailer), label="trailer", **TRAILER)
+        compression.plot(time, values(run, "compression"), label="drawbar", **CAR)
+        if theory is not None:
+            accelerations.axhline(theory.A, label="steady (theory)", **THEORY)
+            compression.axhline(theory.D, label="steady (theory)", **THEORY)
+        _label(accelerations, "Acceleration (m/s²)")
+        _label(compression, "Compression (m)")
+        _label(slips, "Slip (%)")
+        slips.set_xlabel("Time (s)")
+        slips.set_xlim(0.0, float(time[-1]))
+        figure.align_ylabels()
+    return figure
+
+
+def write(run: xr.Dataset, stem: Path) -> list[Path]:
+    """Draw a run to stem.png and stem.svg; returns the two paths. HitchError if they cannot be written."""
+    return save(draw(run), stem)
+
+
+def save(figure: Figure, stem: Path) -> list[Path]:
+    """Write a figure to stem.png and stem.svg; returns the two paths. HitchError if they cannot be written."""
+    contents = {stem.with_name(f"{stem.name}.{kind}"): rendered(figure, kind) for kind in KINDS}
+    for path, content in contents.items():
+        write_atomically(path, partial(_fill, content))
+    return list(contents)
+
+
+def rendered(figure: Figure, kind: str) -> bytes:
+    """The content of the file of this kind, one of KINDS; the same figure gives the same bytes."""
+    buffer = io.BytesIO()
+    with mpl.rc_context(STYLE):
+        figure.savefig(buffer, format=kind, **KINDS[kind])
+    return buffer.getvalue()
+
+
+def _fill(content: bytes, path: Path) -> None:
+    path.write_bytes(content)
+
+
+def _label(axes: Axes, name: str) -> None:
+    axes.set_ylabel(name)
+    # Above the panel, where there are no curves.
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=3, borderaxespad=0.0)
+
+
+def _title(scenario: Scenario) -> str:
+    p = scenario.parameters
+    name = scenario.name[:1].upper() + scenario.name[1:]
+    return (
+        f"{textwrap.fill(name, 80)}\n{scenario.brake_torque:g} N·m at {p.V_0:g} m/s, $C$ = {p.C:g} N·s/m,\n"
+        f"$k$ = {p.k:g} N/m, $k_t$ = {p.k_t:g} N/m, $r/k$ = {_ratio(p.r, p.k)}, $\\epsilon$ = {p.eps:g} m"
+    )
+
+
+def _ratio(r: float, k: float) -> str:
+    return f"{r / k:.4g} m" if k > 0.0 else "infinite"
+
+
+def _theory(scenario: Scenario) -> Steady | None:
+    try:
+        return steady(scenario.parameters, scenario.brake_torque)
+    except HitchError:
+        return None

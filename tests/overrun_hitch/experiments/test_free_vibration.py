@@ -1,0 +1,52 @@
+"""The shunting mode fitted to small free vibrations of the FMU, against linear theory."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from overrun_hitch.experiments.free_vibration import measured_mode
+from overrun_hitch.fmu.opening import opened_unit
+from overrun_hitch.parameters import CASES, DATUM, HitchError
+from overrun_hitch.theory.linear import shunting_mode
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_it_is_the_eigenvalue(case: str, car_trailer_fmu: Path) -> None:
+    """At a slip s of 0.0007 the tyre's slopes are smaller by s than theory's: 1e-4 1/s in growth, s in the ratio."""
+    worst = [0.0] * 4
+    with opened_unit(car_trailer_fmu) as unit:
+        for V in (10.0, 20.0, 40.0):
+            for C in (0.0, 50.0, 400.0, 3200.0):
+                parameters = CASES[case].changed({"C": C})
+                found, theory = measured_mode(unit, parameters, V), shunting_mode(parameters, V)
+                distances = (
+                    abs(found.growth_rate - float(theory.growth_rate)),
+                    abs(found.frequency / float(theory.frequency) - 1.0),
+                    abs(found.amplitude_ratio / float(theory.amplitude_ratio) - 1.0),
+                    abs(found.phase - float(theory.phase)),
+                )
+                worst = [max(pair) for pair in zip(worst, distances, strict=True)]
+                assert found.residual < 1e-5
+    print(
+        f"case {case}: growth {worst[0]:.1e} 1/s, frequency {worst[1]:.1e}, ratio {worst[2]:.1e}, phase {worst[3]:.1e}"
+    )
+    assert worst[0] < 2e-4 and worst[1] < 5e-5 and worst[2] < 7e-4 and worst[3] < 0.05
+
+
+def test_clearance_only_shifts_it(car_trailer_fmu: Path) -> None:
+    """About steady braking the drawbar is past its clearance, however wide."""
+    parameters = CASES["ii"].changed({"C": 200.0})
+    with opened_unit(car_trailer_fmu) as unit:
+        without = measured_mode(unit, parameters, 20.0)
+        wide = measured_mode(unit, parameters.changed({"eps": 0.1}), 20.0)
+    assert wide.eigenvalue == pytest.approx(without.eigenvalue, rel=1e-6)
+
+
+def test_where_there_is_nothing_to_measure(car_trailer_fmu: Path) -> None:
+    with opened_unit(car_trailer_fmu) as unit:
+        with pytest.raises(HitchError, match="does not oscillate"):
+            measured_mode(unit, DATUM.changed({"C": 20000.0}), 20.0)
+        with pytest.raises(HitchError, match="no shunting mode"):
+            measured_mode(unit, DATUM.changed({"k": 0.0, "r": 0.0}), 20.0)
