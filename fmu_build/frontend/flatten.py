@@ -33,6 +33,7 @@ from .components import elements_for
 from .declarations import Node, declared_names, fixed_names, is_text, variables_of
 from .event_expressions import EventReader, enumeration_types
 from .loading import load
+from .modifiers import with_modifiers
 from .sources import Sources
 from .values import Value, elements
 
@@ -44,8 +45,9 @@ def flatten(path: Path, class_name: str) -> FlatModel:
     """
     model, sources = load(path, class_name)
     flat = model.to_dict("flat")
-    declared = declared_names(flat)
     fixed = fixed_names(flat)
+    flat = with_modifiers(flat, fixed)
+    declared = declared_names(flat)
     reader = EventReader(sources, declared, flat, fixed)
     kinds = enumeration_types(flat)
     variables = [

@@ -116,6 +116,7 @@ class CompiledModel:
         return z
 
     def outputs(self) -> None:
+        self._call("model_parameters")
         self._call("model_outputs", self.relations() > 0)
 
     def derivatives(self) -> np.ndarray:
