@@ -41,8 +41,8 @@ def other_damper_fmu(modelica_library: Path, tmp_path_factory: pytest.TempPathFa
     shutil.copytree(modelica_library, library)
     drawbar = library / "Components" / "Drawbar.mo"
     text = drawbar.read_text(encoding="utf-8")
-    assert text.count("-F_damper") == 1
-    drawbar.write_text(text.replace("-F_damper", "-1.01*F_damper"), encoding="utf-8")
+    assert text.count("= F_damper +") == 1
+    drawbar.write_text(text.replace("= F_damper +", "= 1.01*F_damper +"), encoding="utf-8")
     fmu = library.with_name("Other.fmu")
     build(library, "OverrunHitch.Systems.CarTrailer", fmu, 2)
     return fmu
