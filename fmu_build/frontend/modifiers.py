@@ -1,7 +1,7 @@
 """Values that are handed down through modifiers. rumoca puts them in at the innermost place, as if written there.
 
-Of ``A a(k = 3)`` where A has ``B b(k = k)``, it makes ``a.b.k = 3``: setting ``a.k`` would have no effect. But the value
-bears the place in the source where it stands, and so shows which parameter outside it came through.
+Of ``A a(k = 3)`` where A has ``B b(k = k)``, it makes ``a.b.k = 3``: setting ``a.k`` would have no effect. But the
+value bears the place in the source where it stands, and so shows which parameter outside it came through.
 """
 
 from __future__ import annotations
