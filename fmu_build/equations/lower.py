@@ -42,14 +42,9 @@ def lower(model: FlatModel) -> FlatModel:
         if v.variability == "discrete" and v.causality != "input" and v.name not in work.assigned:
             raise BuildError(f"{v.origin}: no equation determines {v.name}")
     initial = [equation for algorithm in model.initial_algorithms for equation in work.start(algorithm)]
-    samples = [
-        Variable(numbered(Kind.SAMPLE, i), type="Boolean", variability="discrete") for i in range(len(model.samples))
-    ]
-    rounded = [Variable(a.target, type="Integer", variability="discrete") for a in model.rounded]
-    hidden = [replace(v, hidden=True) for v in (*work.variables, *samples, *rounded)]
     return replace(
         model,
-        variables=(*model.variables, *hidden),
+        variables=(*model.variables, *work.variables, *_collected(model)),
         equations=(*model.equations, *work.equations),
         relations=tuple(work.relations),
         initial_equations=(*model.initial_equations, *initial),
@@ -68,6 +63,15 @@ def lower(model: FlatModel) -> FlatModel:
         rounded=(),
         checks=(),
     )
+
+
+def _collected(model: FlatModel) -> list[Variable]:
+    """The variables that reading expressions has brought along: ticks of clocks, and what is rounded."""
+    ticks = [numbered(Kind.SAMPLE, i) for i in range(len(model.samples))]
+    return [
+        *(Variable(name, type="Boolean", variability="discrete", hidden=True) for name in ticks),
+        *(Variable(a.target, type="Integer", variability="discrete", hidden=True) for a in model.rounded),
+    ]
 
 
 class _Lowering:
@@ -209,7 +213,9 @@ class _Lowering:
     def _new(self, kind: Kind, condition: sympy.Expr, origin: str, start: int) -> str:
         name = numbered(kind, sum(kind_of(v.name) is kind for v in self.variables))
         self.variables.append(
-            Variable(name, type="Boolean", variability="discrete", start=sympy.Integer(start), origin=origin)
+            Variable(
+                name, type="Boolean", variability="discrete", start=sympy.Integer(start), hidden=True, origin=origin
+            )
         )
         self.assignments.append(Assignment(name, truth(condition), origin))
         return name

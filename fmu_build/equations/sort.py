@@ -31,11 +31,10 @@ def sort(system: EquationSystem) -> SortedModel:
     solved = _blocks(list(system.equations), list(system.unknowns))
     events = schedule(system, solved)
     variables |= _for_events(events, variables)
+    names = residual_names(len(system.relations), variables)
     residuals = [
         Assignment(name, residual, relation.origin)
-        for name, residual, relation in zip(
-            residual_names(len(system.relations), variables), events.residuals, system.relations, strict=True
-        )
+        for name, residual, relation in zip(names, events.residuals, system.relations, strict=True)
     ]
     starts = _starts(system)
     variables |= {
@@ -61,7 +60,7 @@ def sort(system: EquationSystem) -> SortedModel:
         start_values={a.target: float(a.expression) for a in starts if _is_start_value(a, system)} | guesses,
         assignments=(*solved, *residuals, *_copies(system, variables)),
         relations=system.relations,
-        residuals=tuple(residual.target for residual in residuals),
+        residuals=tuple(names),
         free_parameters=system.free_parameters,
         schedule=events.schedule,
     )
