@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 import sympy
 
-from ..ir.symbols import power
+from ..ir.functions import power
 from .values import (
     ONE,
     ZERO,
