@@ -87,7 +87,7 @@ def test_documentation_picture_and_licence(car_trailer_fmus: dict[int, Path], ve
     with zipfile.ZipFile(car_trailer_fmus[version]) as archive:
         names = set(archive.namelist())
         page = archive.read("documentation/index.html").decode()
-        licence = archive.read("documentation/licenses/LICENSE.txt").decode()
+        licence = archive.read("documentation/licenses/runtime.txt").decode()
         picture = archive.read("model.png" if version == 2 else "terminalsAndIcons/icon.png")
     assert licence.startswith("MIT License") and picture.startswith(b"\x89PNG")
     links: list[str] = []
@@ -159,3 +159,13 @@ def test_the_parameter_sets_follow_their_schema(car_trailer_fmu: Path, tmp_path:
     for file in files:
         schema.assertValid(etree.parse(str(file)))
     assert len(files) == 2
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_speeds_can_be_given_and_seen_in_kilometres_an_hour(car_trailer_fmus: dict[int, Path], version: int) -> None:
+    run = fmpy.simulate_fmu(
+        str(car_trailer_fmus[version]), stop_time=0.1, start_values={"V_0": (90.0, "km/h")}, output=["v_car"]
+    )
+    assert run["v_car"][0] == pytest.approx(25.0, rel=1e-15)
+    description = fmpy.read_model_description(str(car_trailer_fmus[version]))
+    assert next(v for v in description.modelVariables if v.name == "v_car").displayUnit == "km/h"

@@ -80,7 +80,7 @@ def _format(message: Message) -> str:
     parts = message.format.replace("%%", "\0").split("%s")
     kinds = [conversions[kind] for _, kind in message.values]
     text = parts[0] + "".join(kind + part for kind, part in zip(kinds, parts[1:], strict=True))
-    return string(text.replace("\0", "%%")).replace("\n", "\\n")
+    return string(text.replace("\0", "%%"))
 
 
 def _conversion(value: object, kind: str, printer: Printer) -> str:

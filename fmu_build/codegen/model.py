@@ -40,11 +40,11 @@ def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str, coupli
 def _header(model: SortedModel, identifier: str, names: dict[str, str], n_couplings: int) -> str:
     tolerance = model.experiment.tolerance or DEFAULT_TOLERANCE
     fields = "\n".join(f"        double {c}; {comment(name)}" for name, c in names.items())
-    return f"""/* Generated from {model.name}: the table of variables. Its order is the FMI value reference. */
+    return f"""{comment(f"Generated from {model.name}: the table of variables. Its order is the FMI value reference.")}
 #ifndef VARIABLES_H
 #define VARIABLES_H
 
-#define MODEL_NAME "{identifier}"
+#define MODEL_NAME {string(identifier)}
 #define MODEL_TOKEN "{TOKEN_PLACEHOLDER}"
 #define DEFAULT_TOLERANCE {tolerance!r}
 #define N_COUPLINGS {n_couplings}
@@ -88,7 +88,7 @@ def _model(model: SortedModel, jacobian: JacobianModel, printer: Printer) -> str
         _chain("model_tangent", jacobian, printer, _tangent),
         _chain("model_adjoint", jacobian, printer, _adjoint),
     ]
-    return f"""/* Generated from {model.name}. Each line bears the place in the Modelica source that it comes from. */
+    return f"""{comment(f"Generated from {model.name}. Each line bears the place in the source that it comes from.")}
 #include "model.h"
 
 #include <math.h>

@@ -4,27 +4,27 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from typing import Any
 
 import sympy
 from sympy.printing.c import C11CodePrinter
 
 from ..ir.equations import Block, Loop
 from ..ir.functions import no_number, power, reach_time, round_down, time_left
-from ..ir.symbols import relation_of
-
-C_KEYWORDS = frozenset(C11CodePrinter.reserved_words) | {"inline", "restrict", "bool", "true", "false", "at"}
+from ..ir.symbols import TIME, relation_of
 
 
 def identifiers(names: Iterable[str]) -> dict[str, str]:
-    """Names to distinct C names: ``der(car.body.v)`` to ``der_car_body_v``, ``d(a)/d(b)`` to ``d_a__d_b``."""
+    """Names to distinct C names: ``der(car.body.v)`` to ``m_der_car_body_v``, ``d(a)/d(b)`` to ``m_d_a__d_b``.
+
+    All begin with ``m_``, so that none is a keyword, a macro of some header, or begins with a digit, whatever the model
+    calls its variables. The time is the runtime's too, and has the name that it knows.
+    """
     result: dict[str, str] = {}
     taken: set[str] = set()
     for name in names:
-        identifier = "__".join(re.sub(r"\W+", "_", part, flags=re.ASCII).strip("_") for part in name.split("/"))
-        if not identifier[:1].isalpha():  # of names in quotes
-            identifier = f"q_{identifier}"
-        while identifier in taken or identifier in C_KEYWORDS:
+        parts = (re.sub(r"\W+", "_", part, flags=re.ASCII).strip("_") for part in name.split("/"))
+        identifier = "time" if name == TIME else f"m_{'__'.join(parts)}"
+        while identifier in taken:
             identifier += "_"
         taken.add(identifier)
         result[name] = identifier
@@ -149,11 +149,13 @@ def assignment_lines(blocks: Iterable[Block], printer: Printer) -> list[str]:
 
 
 def comment(text: str) -> str:
-    """A comment; names in quotes may contain what ends one."""
-    return f"/* {text.replace('*/', '* /').replace('/*', '/ *')} */"
+    """A comment. Names in quotes, and names of files, may contain anything, what ends a comment too."""
+    plain = text.encode("ascii", "backslashreplace").decode()
+    plain = "".join(c if c.isprintable() else " " for c in plain)
+    return f"/* {plain.replace('*/', '* /').replace('/*', '/ *')} */"
 
 
-def string(text: Any) -> str:
-    """A string literal."""
-    escaped = str(text).replace("\\", "\\\\").replace('"', '\\"')
-    return f'"{escaped}"'
+def string(text: str) -> str:
+    """A string literal, of the bytes of its UTF-8; ``?`` is escaped because C11 knows trigraphs."""
+    plain = "".join(chr(b) if 32 <= b < 127 and chr(b) not in '\\"?' else f"\\{b:03o}" for b in text.encode())
+    return f'"{plain}"'

@@ -7,13 +7,14 @@ from pathlib import Path
 
 from ..ir.models import TOKEN_PLACEHOLDER, CSources, FlatModel, Simulation
 from . import xml_fmi2, xml_fmi3
-from .compile import RUNTIME, fmi_headers
+from .compile import RUNTIME
 from .documentation import document
 from .icon import draw_icon
 from .interface import Interface
+from .licences import licence_files
 from .reference import reference_files
 
-LICENSE = Path(__file__).parents[2] / "LICENSE"
+HEADERS = Path(__file__).parents[1] / "headers"
 SOURCES = "sources/"
 
 
@@ -27,19 +28,19 @@ def contents(
     icon = draw_icon(flat.icon, interface.identifier)
     if fmi == 2:
         picture = "model.png"
-        files = {"modelDescription.xml": xml_fmi2.describe(interface, TOKEN_PLACEHOLDER, compiled)}
+        files = {"modelDescription.xml": xml_fmi2.describe(interface, flat.claims, TOKEN_PLACEHOLDER, compiled)}
     else:
         picture = "terminalsAndIcons/icon.png"
         files = {
-            "modelDescription.xml": xml_fmi3.describe(interface, TOKEN_PLACEHOLDER),
+            "modelDescription.xml": xml_fmi3.describe(interface, flat.claims, TOKEN_PLACEHOLDER),
             "terminalsAndIcons/terminalsAndIcons.xml": xml_fmi3.describe_ports(interface),
             f"{SOURCES}buildDescription.xml": xml_fmi3.describe_build(interface.identifier, compiled),
         }
     files |= {f"{SOURCES}{name}": content for name, content in sources.items()}
     evidence = reference_files(interface, references)
-    page = document(interface, flat.documentation, f"../{picture}", has_references=bool(evidence))
+    page = document(interface, flat.documentation, flat.claims, f"../{picture}", has_references=bool(evidence))
     files["documentation/index.html"] = page
-    files["documentation/licenses/LICENSE.txt"] = LICENSE.read_bytes()
+    files |= licence_files(flat.claims, flat.name)
     files[picture] = icon
     return files | evidence
 
@@ -48,4 +49,4 @@ def _hand_written(fmi: int) -> list[Path]:
     """The runtime with the facade of one version of the standard, and that version's headers."""
     other = {2: "fmi3", 3: "fmi2"}[fmi]
     runtime = [file for file in RUNTIME.rglob("*.[ch]") if file.parent.name != other]
-    return sorted([*runtime, *fmi_headers().glob(f"fmi{fmi}*.h")])
+    return sorted([*runtime, *(HEADERS / f"fmi{fmi}").glob("*.h")])

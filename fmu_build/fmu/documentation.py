@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from html import escape
 
+import nh3
+
+from ..ir.models import Claims
 from .interface import GENERATION_TOOL, Entry, Interface
+from .licences import of_the_model
 
 STYLE = """
 body { font: 16px/1.5 sans-serif; max-width: 54em; margin: 2em auto; padding: 0 1em; color: #222 }
@@ -20,8 +24,9 @@ REFERENCES = """<h2>Reference results</h2>
 SECTIONS = {"input": "Inputs", "output": "Outputs", "parameter": "Parameters"}
 
 
-def document(interface: Interface, text: str, picture: str, *, has_references: bool) -> bytes:
-    """The page: ``text`` is the HTML of the class's documentation, ``picture`` the path of its icon from the page.
+def document(interface: Interface, text: str, claims: Claims, picture: str, *, has_references: bool) -> bytes:
+    """The page: ``text`` is the HTML of the class's documentation, of which what could run is dropped, ``picture`` the
+    path of the class's icon from the page.
 
     ``has_references``: fmi-ls-ref.txt stands beside it and describes reference results.
     """
@@ -39,19 +44,19 @@ def document(interface: Interface, text: str, picture: str, *, has_references: b
 <img src="{escape(picture)}" alt="Icon of {escape(interface.identifier)}" width="128" height="128">
 <h1>{escape(interface.identifier)}</h1>
 <p><strong>{escape(interface.description)}</strong></p>
-{text}
+{nh3.clean(text)}
 {tables}
 <h2>How it runs</h2>
 <p>Co-Simulation and Model Exchange. As a Co-Simulation unit it brings its own integrator, Rodas5P (Steinebach 2023), a
-linearly implicit method of order 5 with the exact Jacobian. Error control chooses its steps; a communication point ends
-a step early. The relative tolerance is the importer's, {interface.experiment["tolerance"]} if it gives none; the
-absolute tolerance of a state is the relative one times its nominal value. Switching points are located on the
-solution.</p>
+linearly implicit method of order 5 with the exact Jacobian. Error control chooses its steps: while no input changes,
+they go on across communication points, which are read off the solution. An input that gets a new value ends a step. The
+relative tolerance is the importer's, {interface.experiment["tolerance"]} if it gives none; the absolute tolerance of a
+state is the relative one times its nominal value. Switching points are located on the solution.</p>
 <p>The unit needs the C library and its mathematical part, no resources and no files. Values outside the ranges above
 are refused with a message.</p>
 {references}<h2>Licence</h2>
-<p>MIT, see <a href="licenses/LICENSE.txt">licenses/LICENSE.txt</a>. The headers of the standard in
-<code>sources/</code> bear their own. Made by {escape(GENERATION_TOOL)} from the Modelica class
+<p>The model: {escape(of_the_model(claims))}. The runtime in it: MIT, see
+<a href="licenses/license.txt">licenses/license.txt</a>. Made by {escape(GENERATION_TOOL)} from the Modelica class
 <code>{escape(interface.name)}</code>.</p>
 </body>
 </html>

@@ -12,6 +12,7 @@ from ..ir.dependencies import start_value, tunable_parameters
 from ..ir.equations import EnumerationType, Variable
 from ..ir.models import DEFAULT_TOLERANCE, SortedModel, Terminal
 from ..ir.symbols import TIME
+from ..ir.units import conversion
 
 GENERATION_TOOL = "OverrunHitch fmu_build"
 Dependencies = dict[str, tuple[str, ...]]  # names of unknowns to names of knowns, both listed
@@ -48,9 +49,11 @@ class Entry:
         """Unit, quantity and limits, as both versions of FMI write them."""
         v = self.variable
         numbers = {"min": v.min, "max": v.max, "nominal": v.nominal or None}
-        texts = {} if v.type == "Boolean" else {"unit": v.unit, "quantity": v.quantity}  # FMI has none of a Boolean
+        texts = (
+            {} if v.type == "Boolean" else {"unit": v.unit, "displayUnit": displayed_in(v), "quantity": v.quantity}
+        )  # FMI has none of a Boolean
         if v.type != "Real":
-            texts["unit"] = ""
+            texts["unit"] = texts["displayUnit"] = ""
             numbers = {} if v.type == "Boolean" else numbers | {"nominal": None}
         number = repr if v.type == "Real" else lambda value: str(int(value))
         return {key: text for key, text in texts.items() if text} | {
@@ -81,9 +84,19 @@ class Interface:
         return tuple(dict.fromkeys(e.variable.enumeration for e in self.entries if e.variable.enumeration))
 
     @property
-    def units(self) -> list[str]:
-        """All units, in alphabetical order."""
-        return sorted({e.variable.unit for e in (*self.entries, *self.event_indicators) if e.variable.unit})
+    def units(self) -> dict[str, tuple[str, ...]]:
+        """All units in alphabetical order, each with the units that its values are displayed in."""
+        variables = [e.variable for e in (*self.entries, *self.event_indicators)]
+        return {
+            unit: tuple(sorted({displayed_in(v) for v in variables if v.unit == unit} - {""}))
+            for unit in sorted({v.unit for v in variables if v.unit})
+        }
+
+
+def displayed_in(variable: Variable) -> str:
+    """The unit to show its values in; "" where the model names none, or none that its unit converts to."""
+    known = variable.display_unit and conversion(variable.unit, variable.display_unit)
+    return variable.display_unit if known else ""
 
 
 def expose(model: SortedModel, identifier: str, terminals: tuple[Terminal, ...] = ()) -> Interface:

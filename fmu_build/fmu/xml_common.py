@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 
 from lxml import etree
 
 from ..ir.equations import EnumerationType
-from ..ir.units import base_unit
+from ..ir.models import Claims
+from ..ir.units import base_unit, conversion
 
 LOG_CATEGORIES = {
     "logStatusError": "Errors: what was refused or failed, and what is allowed",
@@ -16,10 +18,15 @@ LOG_CATEGORIES = {
 }
 
 
-def add_units(root: etree._Element, names: Sequence[str]) -> None:
-    """UnitDefinitions."""
+def claimed(claims: Claims) -> dict[str, str]:
+    """Author, copyright and licence of the model, as far as it states them."""
+    return {key: value for key, value in asdict(claims).items() if value}
+
+
+def add_units(root: etree._Element, units: Mapping[str, Sequence[str]]) -> None:
+    """UnitDefinitions: ``units`` with those that their values are displayed in."""
     definitions = etree.SubElement(root, "UnitDefinitions")
-    for name in names:
+    for name, displayed in units.items():
         unit = etree.SubElement(definitions, "Unit", name=name)
         if (base := base_unit(name)) is not None:
             attributes = {symbol: str(power) for symbol, power in base.exponents}
@@ -28,6 +35,11 @@ def add_units(root: etree._Element, names: Sequence[str]) -> None:
             if base.offset != 0.0:
                 attributes["offset"] = repr(base.offset)
             etree.SubElement(unit, "BaseUnit", attributes)
+        for other in displayed:
+            factor, offset = conversion(name, other) or (1.0, 0.0)  # interface.displayed_in() lets no others through
+            numbers = {"factor": factor} if factor != 1.0 else {}
+            numbers |= {"offset": offset} if offset != 0.0 else {}
+            etree.SubElement(unit, "DisplayUnit", {key: repr(n) for key, n in numbers.items()}, name=other)
 
 
 def add_items(element: etree._Element, enumeration: EnumerationType) -> None:

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 from lxml import etree
 
+from ..ir.models import Claims
 from .interface import GENERATION_TOOL, Dependencies, Entry, Interface
-from .xml_common import add_items, add_log_categories, add_units, to_bytes
+from .xml_common import add_items, add_log_categories, add_units, claimed, to_bytes
 
 CAPABILITIES = {
     "canGetAndSetFMUstate": "true",
@@ -21,7 +22,7 @@ CO_SIMULATION = {
 }
 
 
-def describe(interface: Interface, token: str, sources: Sequence[str]) -> bytes:
+def describe(interface: Interface, claims: Claims, token: str, sources: Sequence[str]) -> bytes:
     """modelDescription.xml, with ``token`` as its guid and the C files ``sources`` of the folder sources/."""
     root = etree.Element(
         "fmiModelDescription",
@@ -33,6 +34,7 @@ def describe(interface: Interface, token: str, sources: Sequence[str]) -> bytes:
         variableNamingConvention="structured",
         numberOfEventIndicators=str(len(interface.event_indicators)),
     )
+    root.attrib.update(claimed(claims))
     identity = {"modelIdentifier": interface.identifier}
     for tag, capabilities in (
         (

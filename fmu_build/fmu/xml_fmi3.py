@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 from lxml import etree
 
+from ..ir.models import Claims
 from .interface import GENERATION_TOOL, Dependencies, Entry, Interface
-from .xml_common import add_items, add_log_categories, add_units, to_bytes
+from .xml_common import add_items, add_log_categories, add_units, claimed, to_bytes
 
 CAPABILITIES = {
     "canGetAndSetFMUState": "true",
@@ -28,7 +29,7 @@ CO_SIMULATION = {
 }
 
 
-def describe(interface: Interface, token: str) -> bytes:
+def describe(interface: Interface, claims: Claims, token: str) -> bytes:
     """modelDescription.xml, with ``token`` as its instantiation token."""
     root = etree.Element(
         "fmiModelDescription",
@@ -39,6 +40,7 @@ def describe(interface: Interface, token: str) -> bytes:
         generationTool=GENERATION_TOOL,
         variableNamingConvention="structured",
     )
+    root.attrib.update(claimed(claims))
     steps = {"needsCompletedIntegratorStep": "true"} if interface.has_checks else {}
     etree.SubElement(root, "ModelExchange", {"modelIdentifier": interface.identifier} | CAPABILITIES | steps)
     etree.SubElement(root, "CoSimulation", {"modelIdentifier": interface.identifier} | CAPABILITIES | CO_SIMULATION)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
-from ..ir.models import Experiment
+from ..ir.models import Claims, Experiment
 
 
 def class_text(class_name: str, texts: Iterable[str]) -> str:
@@ -44,6 +44,26 @@ def read_examples(text: str) -> tuple[str, ...]:
     """The classes in our own annotation ``__fmu_build(referenceExamples={"...", "..."})``."""
     listed = re.search(r"\breferenceExamples\s*=\s*\{([^}]*)\}", _arguments("__fmu_build", text))
     return tuple(re.findall(r'"([^"]+)"', listed.group(1))) if listed else ()
+
+
+def read_claims(class_name: str, texts: Iterable[str]) -> Claims:
+    """``__fmu_build(author="...", copyright="...", license="...")`` of the class, or of the nearest package outside."""
+    texts = list(texts)
+    around = [class_text(class_name, texts)]
+    *packages, _ = class_name.split(".")
+    around += [_package_text(name, texts) for name in reversed(packages)]
+    found: dict[str, str] = {}
+    for text in around:
+        for annotation in _all_arguments("__fmu_build", text):
+            said = re.findall(r'\b(author|copyright|license)\s*=\s*"((?:\\.|[^"\\])*)"', annotation)
+            found = {key: re.sub(r"\\(.)", r"\1", value) for key, value in said} | found
+    return Claims(**found)
+
+
+def _package_text(name: str, texts: Iterable[str]) -> str:
+    """The text of a package."""
+    pattern = re.compile(rf"\bpackage\s+{re.escape(name)}\b.*\bend\s+{re.escape(name)}\s*;", re.DOTALL)
+    return next((match.group(0) for text in texts if (match := pattern.search(text))), "")
 
 
 def read_couplings(text: str) -> tuple[str, ...]:

@@ -109,6 +109,7 @@ def _whole(node: Node, flat: Node, reader: EventReader, kinds: dict[str, Enumera
         name=name,
         description=node["description"] or "",
         unit=node["unit"] or "",
+        display_unit=node["display_unit"] or "",
         quantity=node["quantity"] or "",
         causality=causality if is_port else "local",
         variability=_variability(node, reader.declared),

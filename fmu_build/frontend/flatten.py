@@ -21,6 +21,7 @@ from ..ir.models import FlatModel
 from ..ir.symbols import symbol
 from .annotations import (
     class_text,
+    read_claims,
     read_couplings,
     read_documentation,
     read_examples,
@@ -68,6 +69,7 @@ def flatten(path: Path, class_name: str) -> FlatModel:
         icon=read_icon(text),
         couplings=read_couplings(text),
         terminals=read_terminals(text),
+        claims=read_claims(class_name, sources.texts()),
         examples=read_examples(text),
     )
     return _with_equations(flat_model, flat, reader)

@@ -24,6 +24,7 @@ class Variable:
     name: str
     description: str = ""
     unit: str = ""
+    display_unit: str = ""
     quantity: str = ""
     causality: str = "local"  # local, input, output
     variability: str = "continuous"  # continuous, discrete, parameter, constant

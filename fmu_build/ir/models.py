@@ -26,6 +26,15 @@ class Experiment:
 
 
 @dataclass(frozen=True)
+class Claims:
+    """Who made a model and on what terms, as it says itself; "" where it claims nothing."""
+
+    author: str = ""
+    copyright: str = ""
+    license: str = ""
+
+
+@dataclass(frozen=True)
 class Coupling:
     """Names of the variables of a coupling; what each is for stands in runtime/model.h."""
 
@@ -89,6 +98,7 @@ class FlatModel:
     icon: str = ""  # Modelica text of the Icon annotation
     couplings: tuple[str, ...] = ()  # arguments of coupling annotations, Modelica text
     terminals: tuple[str, ...] = ()  # and of terminal annotations
+    claims: Claims = Claims()
     examples: tuple[str, ...] = ()  # classes with one component of this class, for reference results
 
 

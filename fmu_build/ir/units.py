@@ -64,6 +64,18 @@ def base_unit(unit: str) -> BaseUnit | None:
     return BaseUnit(exponents, factor, 273.15 if unit == "degC" else 0.0)
 
 
+def conversion(unit: str, display_unit: str) -> tuple[float, float] | None:
+    """(factor, offset) with which ``factor*value + offset`` is a value of ``unit`` in ``display_unit``.
+
+    None where one of them is not known here, or where they measure different things.
+    """
+    one, other = base_unit(unit), base_unit(display_unit)
+    if one is None or other is None or one.exponents != other.exponents:
+        return None
+    factor, offset = one.factor / other.factor, (one.offset - other.offset) / other.factor
+    return float(f"{factor:.15g}"), float(f"{offset:.15g}")  # 1 m/s is 3.6 km/h
+
+
 def per_second(unit: str) -> str:
     """The unit of a time derivative: "m" to "m/s", "m/s" to "m/s2", "1" to "1/s"; "" stays ""."""
     factors = _factors(unit)

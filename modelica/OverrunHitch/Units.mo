@@ -7,11 +7,11 @@ package Units "Physical quantities with their units and admissible ranges"
   type Radius = Real(final quantity="Length", final unit="m", min=0.01) "Radius";
   type Position = Real(final quantity="Length", final unit="m", nominal=1) "Position along the road";
   type Length = Real(final quantity="Length", final unit="m") "Length";
-  type Velocity = Real(final quantity="Velocity", final unit="m/s", nominal=1) "Velocity";
+  type Velocity = Real(final quantity="Velocity", final unit="m/s", displayUnit="km/h", nominal=1) "Velocity";
   type Acceleration = Real(final quantity="Acceleration", final unit="m/s2") "Acceleration";
   constant Acceleration g_n = 9.80665 "Standard acceleration of free fall";
   constant Density rho_air = 1.225 "Density of air at sea level: ISO 2533 (ICAO standard atmosphere)";
-  type Angle = Real(final quantity="Angle", final unit="rad") "Angle";
+  type Angle = Real(final quantity="Angle", final unit="rad", displayUnit="deg") "Angle";
   type Time = Real(final quantity="Time", final unit="s") "Time";
   type Slowness = Real(final quantity="Slowness", final unit="s/m") "Inverse of a velocity";
   type Deflection = Real(final quantity="Length", final unit="m", nominal=0.01) "Deflection of a tyre";

@@ -2,6 +2,7 @@ within ;
 package OverrunHitch "Car and trailer with an overrun brake, after R. S. Sharp (1982)"
   annotation(
     version="0.1.0",
+    __fmu_build(author="The OverrunHitch authors", copyright="Copyright (c) 2026 The OverrunHitch authors", license="MIT"),
     Icon(coordinateSystem(extent={{-100,-100},{100,100}}), graphics={
       Rectangle(extent={{-100,100},{100,-100}}, lineColor={60,60,60}, fillColor={248,248,248}, fillPattern=FillPattern.Solid, radius=10),
       Rectangle(extent={{10,30},{90,-20}}, lineColor={0,60,120}, fillColor={200,220,240}, fillPattern=FillPattern.Solid),

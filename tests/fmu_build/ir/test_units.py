@@ -4,7 +4,7 @@ from collections import Counter
 
 import pytest
 
-from fmu_build.ir.units import base_unit, per_second
+from fmu_build.ir.units import base_unit, conversion, per_second
 
 
 @pytest.mark.parametrize(
@@ -47,3 +47,26 @@ def test_the_unit_of_a_derivative_has_one_second_less(unit: str) -> None:
     difference = Counter(dict(after.exponents))
     difference.subtract(dict(before.exponents))
     assert {name: power for name, power in difference.items() if power} == {"s": -1}
+
+
+@pytest.mark.parametrize(
+    ("unit", "shown", "value", "expected"),
+    [
+        ("m/s", "km/h", 25.0, 90.0),
+        ("rad", "deg", 3.141592653589793, 180.0),
+        ("K", "degC", 300.0, 26.85),
+        ("m", "mm", 0.1, 100.0),
+        ("degC", "K", 0.0, 273.15),
+        ("1", "1", 0.5, 0.5),
+    ],
+)
+def test_conversion_for_display(unit: str, shown: str, value: float, expected: float) -> None:
+    found = conversion(unit, shown)
+    assert found is not None
+    factor, offset = found
+    assert factor * value + offset == pytest.approx(expected, rel=1e-14)
+
+
+def test_what_does_not_convert() -> None:
+    assert conversion("m", "km/h") is None and conversion("m", "furlong") is None
+    assert conversion("m/s", "km/h") == (3.6, 0.0)
