@@ -28,8 +28,9 @@ def of_the_model(claims: Claims) -> str:
 
 
 def _overview(claims: Claims, class_name: str) -> str:
-    return f"""The model {class_name}, and what was generated from it (modelDescription.xml, documentation, and in sources/ model.c,
-variables.h, unit.h, elimination.c, elimination.h): {of_the_model(claims)}.
+    return f"""The model {class_name}, and what was generated from it
+(modelDescription.xml, the documentation, and in sources/ model.c, variables.h, unit.h, elimination.c, elimination.h):
+{of_the_model(claims)}.
 
 The runtime, which is all other C in sources/ and in the binaries: MIT License, see runtime.txt.
 

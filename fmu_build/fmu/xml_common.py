@@ -18,9 +18,11 @@ LOG_CATEGORIES = {
 }
 
 
-def claimed(claims: Claims) -> dict[str, str]:
+def add_claims(root: etree._Element, claims: Claims) -> None:
     """Author, copyright and licence of the model, as far as it states them."""
-    return {key: value for key, value in asdict(claims).items() if value}
+    for key, value in asdict(claims).items():
+        if value:
+            root.set(key, value)
 
 
 def add_units(root: etree._Element, units: Mapping[str, Sequence[str]]) -> None:

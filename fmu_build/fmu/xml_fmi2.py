@@ -8,7 +8,7 @@ from lxml import etree
 
 from ..ir.models import Claims
 from .interface import GENERATION_TOOL, Dependencies, Entry, Interface
-from .xml_common import add_items, add_log_categories, add_units, claimed, to_bytes
+from .xml_common import add_claims, add_items, add_log_categories, add_units, to_bytes
 
 CAPABILITIES = {
     "canGetAndSetFMUstate": "true",
@@ -34,7 +34,7 @@ def describe(interface: Interface, claims: Claims, token: str, sources: Sequence
         variableNamingConvention="structured",
         numberOfEventIndicators=str(len(interface.event_indicators)),
     )
-    root.attrib.update(claimed(claims))
+    add_claims(root, claims)
     identity = {"modelIdentifier": interface.identifier}
     for tag, capabilities in (
         (

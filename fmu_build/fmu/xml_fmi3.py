@@ -8,7 +8,7 @@ from lxml import etree
 
 from ..ir.models import Claims
 from .interface import GENERATION_TOOL, Dependencies, Entry, Interface
-from .xml_common import add_items, add_log_categories, add_units, claimed, to_bytes
+from .xml_common import add_claims, add_items, add_log_categories, add_units, to_bytes
 
 CAPABILITIES = {
     "canGetAndSetFMUState": "true",
@@ -40,7 +40,7 @@ def describe(interface: Interface, claims: Claims, token: str) -> bytes:
         generationTool=GENERATION_TOOL,
         variableNamingConvention="structured",
     )
-    root.attrib.update(claimed(claims))
+    add_claims(root, claims)
     steps = {"needsCompletedIntegratorStep": "true"} if interface.has_checks else {}
     etree.SubElement(root, "ModelExchange", {"modelIdentifier": interface.identifier} | CAPABILITIES | steps)
     etree.SubElement(root, "CoSimulation", {"modelIdentifier": interface.identifier} | CAPABILITIES | CO_SIMULATION)

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 
 from ..ir.models import Claims, Experiment
+from .sources import readable
 
 
 def class_text(class_name: str, texts: Iterable[str]) -> str:
@@ -56,7 +57,7 @@ def read_claims(class_name: str, texts: Iterable[str]) -> Claims:
     for text in around:
         for annotation in _all_arguments("__fmu_build", text):
             said = re.findall(r'\b(author|copyright|license)\s*=\s*"((?:\\.|[^"\\])*)"', annotation)
-            found = {key: re.sub(r"\\(.)", r"\1", value) for key, value in said} | found
+            found = {key: readable(re.sub(r"\\(.)", r"\1", value)) for key, value in said} | found
     return Claims(**found)
 
 

@@ -13,6 +13,7 @@ from .clauses import assigned_names
 from .components import element_names, spread
 from .event_expressions import Declared, EventReader, enumeration_types
 from .expressions import unwrap
+from .sources import readable
 from .values import elements
 
 Node = dict[str, Any]
@@ -107,7 +108,7 @@ def _whole(node: Node, flat: Node, reader: EventReader, kinds: dict[str, Enumera
     is_port = "." not in name and causality in {"input", "output"}
     return Variable(
         name=name,
-        description=node["description"] or "",
+        description=readable(node["description"]),
         unit=node["unit"] or "",
         display_unit=node["display_unit"] or "",
         quantity=node["quantity"] or "",

@@ -35,7 +35,7 @@ from .declarations import Node, declared_names, fixed_names, is_text, variables_
 from .event_expressions import EventReader, enumeration_types
 from .loading import load
 from .modifiers import with_modifiers
-from .sources import Sources
+from .sources import Sources, readable
 from .values import Value, elements
 
 
@@ -60,7 +60,7 @@ def flatten(path: Path, class_name: str) -> FlatModel:
     text = class_text(class_name, sources.texts())
     flat_model = FlatModel(
         name=class_name,
-        description=flat["model_description"] or "",
+        description=readable(flat["model_description"]),
         variables=tuple(variables),
         equations=(),
         relations=(),

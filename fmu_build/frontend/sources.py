@@ -8,6 +8,14 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+# XML has no place for these (XML 1.0, section 2.2); Modelica's strings may contain them (\a, \b, \f, \v).
+_UNFIT = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+def readable(text: str | None) -> str:
+    """A text for people, with a replacement character for each that no XML file can hold; "" if there is none."""
+    return _UNFIT.sub("\ufffd", text or "")
+
 
 class Sources:
     """The Modelica files behind a flat model: turns rumoca's spans into ``file:line``, relative to the library."""
