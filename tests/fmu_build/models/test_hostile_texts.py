@@ -65,7 +65,7 @@ def test_what_the_unit_says_is_what_the_model_said(fmi: int, tmp_path: Path) -> 
         told.append(arguments[-1].decode() if isinstance(arguments[-1], bytes) else str(arguments[-1]))
 
     with pytest.raises(FMICallException):
-        fmpy.simulate_fmu(str(fmu), stop_time=1.0, step_size=0.1, logger=listen)
+        fmpy.simulate_fmu(str(fmu), stop_time=1.0, step_size=0.1, logger=listen, debug_logging=True)
     assert any('too low??/ "quoted" %s %n */' in text for text in told)
 
 
