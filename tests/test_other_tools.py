@@ -1,7 +1,8 @@
 """The FMU against other tools that solve the same equations, each to the accuracy that it has.
 
 rumoca simulates the library's own examples: same Modelica, another compiler back end, another integrator.
-OpenModelica's trajectories are recorded in oracles/openmodelica, with their distance from a converged solution.
+OpenModelica's trajectories are recorded in oracles/openmodelica, with their distance from a converged solution; those
+of the package `modelica`, a third front end and solver for the same files, in oracles/modelica_python.
 """
 
 from __future__ import annotations
@@ -42,6 +43,31 @@ def simulated_by_rumoca(library: Path, figure: str, rtol: float, times: np.ndarr
     result = model.simulate(t=(0, 6), dt=0.01, config=config)
     rows = [int(np.abs(np.asarray(result.time) - t).argmin()) for t in times]  # it adds rows at its events
     return {name: np.asarray(result[f"combination.{name}"])[rows] for name in VARIABLES}
+
+
+MODELICA_PYTHON = Path(__file__).parent / "oracles" / "modelica_python" / "figure-8.csv"
+
+
+def test_the_package_modelica(car_trailer_fmu: Path) -> None:
+    theirs = np.genfromtxt(MODELICA_PYTHON, delimiter=",", names=True)
+    scenario = FIGURES["8"].changed(parameters=FIGURES["8"].parameters.changed({"compression_start": 0.01}))
+    ours = step_brake(scenario, fmu=car_trailer_fmu, relative_tolerance=1e-10, communication_step=0.05)
+    np.testing.assert_allclose(ours.time, theirs["time"], atol=1e-12)
+    for name in theirs.dtype.names[1:]:
+        distance = np.abs(ours[name].values - theirs[name]).max()
+        print(f"figure 8 from 0.01 m, {name}: {distance:.1e}")
+        assert distance < 2e-8 * np.ptp(theirs[name])
+
+
+def test_the_record_can_be_repeated() -> None:
+    """Where the package is installed, which needs Python 3.12."""
+    pytest.importorskip("modelica.sim")
+    from tests.oracles.modelica_python.record import figure_8
+
+    theirs = np.genfromtxt(MODELICA_PYTHON, delimiter=",", names=True)
+    found = np.array(figure_8()).T
+    for name, column in zip(theirs.dtype.names, found, strict=True):
+        np.testing.assert_allclose(column, theirs[name], rtol=1e-9, atol=1e-9)
 
 
 @pytest.mark.parametrize("figure", ["6a", "6b", "8", "10"])
