@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..ir.events import Message
 from ..ir.models import SortedModel
 from ..ir.symbols import INITIAL, TERMINAL
-from .text import Printer, assignment_lines, function, string
+from .text import Printer, assignment_lines, comment, function, string
 
 
 def event_sizes(model: SortedModel) -> str:
@@ -33,10 +33,10 @@ def print_events(model: SortedModel, printer: Printer) -> str:
         return ""
     at = model.value_references
     memories = [
-        f"{{{at[m.name]}, {at[m.before]}, {'true' if m.is_discrete else 'false'}}}, /* {m.name} */"
+        f"{{{at[m.name]}, {at[m.before]}, {'true' if m.is_discrete else 'false'}}}, {comment(m.name)}"
         for m in schedule.memories
     ]
-    reinits = [f"{{{at[r.state]}, {at[r.active]}, {at[r.value]}}}, /* {r.state} */" for r in schedule.reinits]
+    reinits = [f"{{{at[r.state]}, {at[r.active]}, {at[r.value]}}}, {comment(r.state)}" for r in schedule.reinits]
     samples = [f"{{{at[s.flag]}, {at[s.start]}, {at[s.interval]}}}," for s in schedule.samples]
     times = [f"{at[name]}," for name in schedule.time_events]
     checks = [f"{{{at[check.violated]}, {check.kind}}}," for check in schedule.checks]

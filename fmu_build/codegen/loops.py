@@ -1,4 +1,4 @@
-"""Algebraic loops as C: what runtime/loops.h needs to know of each, and the lines that call it."""
+"""Algebraic loops as C: what runtime/numerics/loops.h needs to know of each, and the lines that call it."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from ..errors import BuildError
 from ..ir.equations import Assignment, Loop
 from ..ir.linear import rest
 from ..ir.models import JacobianModel, LoopGradient, LoopPartials, SortedModel
+from .text import comment, string
 
 MOST_DOUBLES = 48_000  # on the stack, 384 KB: a thread may have no more than 512 KB (macOS)
 
@@ -48,11 +49,6 @@ def numbered(model: SortedModel) -> dict[str, Loop]:
     return {f"loop_{number}": loop for number, loop in enumerate(loops, start=1)}
 
 
-def name_of(loop: Loop, loops: dict[str, Loop]) -> str:
-    """The C name of a loop."""
-    return next(name for name, other in loops.items() if other is loop)
-
-
 def tangent_lines(name: str, partials: LoopPartials, text: Text, seed: Callable[[str], str]) -> list[str]:
     """Tangents of the residuals, then those of the unknowns."""
     size = len(partials.loop.unknowns)
@@ -61,7 +57,7 @@ def tangent_lines(name: str, partials: LoopPartials, text: Text, seed: Callable[
         for row in partials.by_argument
     ]
     return [
-        f"{{ /* {partials.loop.origin} */",
+        f"{{ {comment(partials.loop.origin)}",
         f"    double right[{size}] = {{",
         *(f"    {line}" for line in right),
         "    };",
@@ -75,7 +71,7 @@ def adjoint_lines(name: str, partials: LoopPartials, text: Text, seed: Callable[
     """Adjoints of the residuals, then those of the arguments."""
     size = len(partials.loop.unknowns)
     return [
-        f"{{ /* {partials.loop.origin} */",
+        f"{{ {comment(partials.loop.origin)}",
         f"    double right[{size}];",
         *_room(size),
         f"    loop_adjoint(&{name}, v, holds, d, right, work, pivots);",
@@ -129,20 +125,20 @@ def _declare(name: str, loop: Loop, references: dict[str, int], text: Text, line
     residuals = [
         *lines(loop.explicit),
         *(
-            f"residual[{row}] = {text(value)}; /* {equation.origin} */"
+            f"residual[{row}] = {text(value)}; {comment(equation.origin)}"
             for row, (value, equation) in enumerate(zip(values, loop.residuals, strict=False))
         ),
     ]
     slopes = [f"slope[{row * size + column}] = {text(value)};" for (row, column), value in loop.slopes.items()]
     unknowns = ", ".join(str(references[unknown]) for unknown in loop.unknowns)
     guesses = ", ".join(str(references[guess]) for guess in loop.guesses) or "0"
-    described = f"{', '.join(loop.unknowns)} ({loop.origin})".replace("\\", "\\\\").replace('"', '\\"')
+    described = string(f"{', '.join(loop.unknowns)} ({loop.origin})")
     return f"""{_function(f"{name}_residuals(Variables *v, const bool holds[], double residual[])", residuals)}
 {_function(f"{name}_slopes(const Variables *v, const bool holds[], double slope[])", slopes)}
 static const unsigned {name}_unknowns[] = {{{unknowns}}};
 static const unsigned {name}_guesses[] = {{{guesses}}};
 static const Loop {name} = {{
-    .text = "{described}",
+    .text = {described},
     .size = {size},
     .n_iterated = {len(loop.iterated)},
     .linear = {str(loop.is_linear).lower()},

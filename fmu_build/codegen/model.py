@@ -20,10 +20,10 @@ from ..ir.models import (
     Partials,
     SortedModel,
 )
-from ..ir.symbols import TIME, relation_name
+from ..ir.symbols import TIME
 from .events import event_sizes, print_events
-from .loops import adjoint_lines, check_stack, declare_loops, gradient_lines, name_of, numbered, tangent_lines
-from .text import Printer, assignment_lines, function, identifiers, local_name, string
+from .loops import adjoint_lines, check_stack, declare_loops, gradient_lines, numbered, tangent_lines
+from .text import Printer, assignment_lines, comment, function, identifiers, string
 
 
 def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str, coupling: Coupling | None = None) -> CSources:
@@ -31,14 +31,15 @@ def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str, coupli
     check_stack(model, jacobian)
     names = identifiers(model.value_references)
     header = _header(model, identifier, names, n_couplings=0 if coupling is None else 1)
-    printer = Printer(names, steady(model), numbered(model))
+    gradients = identifiers(target for a in jacobian.assignments for target in a.targets)
+    printer = Printer(names, gradients, steady(model), numbered(model))
     text = _model(model, jacobian, printer) + _coupling(coupling, model) + print_events(model, printer)
     return CSources({"variables.h": header, "model.c": text})
 
 
 def _header(model: SortedModel, identifier: str, names: dict[str, str], n_couplings: int) -> str:
     tolerance = model.experiment.tolerance or DEFAULT_TOLERANCE
-    fields = "\n".join(f"        double {c}; /* {name} */" for name, c in names.items())
+    fields = "\n".join(f"        double {c}; {comment(name)}" for name, c in names.items())
     return f"""/* Generated from {model.name}: the table of variables. Its order is the FMI value reference. */
 #ifndef VARIABLES_H
 #define VARIABLES_H
@@ -75,8 +76,7 @@ def _model(model: SortedModel, jacobian: JacobianModel, printer: Printer) -> str
     rows = "\n".join(_info(name, kinds[name], model) for name in model.value_references)
     outputs = assignment_lines(model.assignments, printer)
     derivatives = assignment_lines(needed_for(model.derivatives, model), printer)
-    residuals = [relation_name(i) for i in range(len(model.relations))]
-    references = [str(model.value_references[name]) for name in residuals] or ["0"]
+    references = [str(model.value_references[name]) for name in model.residuals] or ["0"]
     sections = [
         declare_loops(model, printer.text, lambda assignments: assignment_lines(assignments, printer)),
         function("model_parameters(Variables *v)", assignment_lines(model.parameter_assignments, printer)),
@@ -113,7 +113,7 @@ def _coupling(coupling: Coupling | None, model: SortedModel) -> str:
     if coupling is None:
         return ""
     rows = [
-        f"    .{field.name} = {model.value_references[name]}, /* {name} */"
+        f"    .{field.name} = {model.value_references[name]}, {comment(name)}"
         for field in fields(coupling)
         for name in [getattr(coupling, field.name)]
     ]
@@ -141,10 +141,10 @@ def _tangent(partials: Iterable[Partials | LoopPartials], printer: Printer) -> l
     lines = []
     for p in partials:
         if isinstance(p, LoopPartials):
-            lines += tangent_lines(name_of(p.loop, printer.loops), p, printer.text, printer.seed)
+            lines += tangent_lines(printer.loop_name(p.loop), p, printer.text, printer.seed)
             continue
         terms = [_product(value, printer.seed(name), printer) for name, value in p.by_argument]
-        lines.append(f"{printer.seed(p.target)} = {' + '.join(terms) or '0.0'}; /* {p.origin} */")
+        lines.append(f"{printer.seed(p.target)} = {' + '.join(terms) or '0.0'}; {comment(p.origin)}")
     return lines
 
 
@@ -153,10 +153,10 @@ def _adjoint(partials: Iterable[Partials | LoopPartials], printer: Printer) -> l
     lines = []
     for p in reversed(list(partials)):
         if isinstance(p, LoopPartials):
-            lines += adjoint_lines(name_of(p.loop, printer.loops), p, printer.text, printer.seed)
+            lines += adjoint_lines(printer.loop_name(p.loop), p, printer.text, printer.seed)
             continue
         lines += [
-            f"{printer.seed(name)} += {_product(value, printer.seed(p.target), printer)}; /* {p.origin} */"
+            f"{printer.seed(name)} += {_product(value, printer.seed(p.target), printer)}; {comment(p.origin)}"
             for name, value in p.by_argument
         ]
     return lines
@@ -168,7 +168,7 @@ def _product(value: sympy.Expr, factor: str, printer: Printer) -> str:
 
 def _relations(model: SortedModel, printer: Printer) -> list[str]:
     """Each residual goes to z as soon as it is known: read back later, in pairs, it would stall (1 % of a run)."""
-    index = {relation_name(i): i for i in range(len(model.relations))}
+    index = {name: i for i, name in enumerate(model.residuals)}
     lines = []
     for block in needed_for(list(index), model):
         lines += assignment_lines([block], printer)
@@ -182,14 +182,14 @@ def _chained(jacobian: JacobianModel, printer: Printer) -> list[str]:
     factored: set[str] = set()
     results = (*jacobian.entries.values(), *jacobian.time_entries.values())
     used = set().union(*(a.arguments for a in jacobian.assignments), *(value.free_symbols for value in results))
-    used_names = {s.name: local_name(s.name) for s in used}
+    used_names = {s.name: printer.locals[s.name] for s in used if s.name in printer.locals}
     for number, a in enumerate(jacobian.assignments):
         if isinstance(a, LoopGradient):
-            name = name_of(a.loop, printer.loops)
+            name = printer.loop_name(a.loop)
             lines += gradient_lines(name, a, number, name not in factored, printer.text, used_names)
             factored.add(name)
         else:
-            lines.append(f"const double {local_name(a.target)} = {printer.text(a.expression)}; /* {a.origin} */")
+            lines.append(f"const double {printer.locals[a.target]} = {printer.text(a.expression)}; {comment(a.origin)}")
     return lines
 
 
@@ -197,8 +197,8 @@ def _jacobian(model: SortedModel, jacobian: JacobianModel, printer: Printer) -> 
     lines = _chained(jacobian, printer)
     lines.append("for (int i = 0; i < N_STATES; i++) time_derivative[i] = 0.0;" if model.states else "")
     for index, ((row, column), value) in enumerate(jacobian.entries.items()):
-        comment = f"{model.derivatives[row]} by {model.states[column]}"
-        lines.append(f"jacobian[{index}] = {printer.text(value)}; /* {comment} */")
+        what = f"{model.derivatives[row]} by {model.states[column]}"
+        lines.append(f"jacobian[{index}] = {printer.text(value)}; {comment(what)}")
     lines += [f"time_derivative[{row}] = {printer.text(value)};" for row, value in jacobian.time_entries.items()]
     signature = "model_jacobian(const Variables *v, const bool holds[], double jacobian[], double time_derivative[])"
     return function(signature, [line for line in lines if line])

@@ -1,4 +1,4 @@
-"""Pieces of C: names, expressions, assignments, functions."""
+"""Pieces of C: names, expressions, assignments, functions, comments."""
 
 from __future__ import annotations
 
@@ -10,18 +10,20 @@ import sympy
 from sympy.printing.c import C11CodePrinter
 
 from ..ir.equations import Block, Loop
-from ..ir.symbols import no_number, power, reach_time, round_down, time_left
-from .loops import name_of
+from ..ir.functions import no_number, power, reach_time, round_down, time_left
+from ..ir.symbols import relation_of
 
 C_KEYWORDS = frozenset(C11CodePrinter.reserved_words) | {"inline", "restrict", "bool", "true", "false", "at"}
 
 
 def identifiers(names: Iterable[str]) -> dict[str, str]:
-    """Modelica names to distinct C names: ``der(car.body.v)`` to ``der_car_body_v``."""
+    """Names to distinct C names: ``der(car.body.v)`` to ``der_car_body_v``, ``d(a)/d(b)`` to ``d_a__d_b``."""
     result: dict[str, str] = {}
     taken: set[str] = set()
     for name in names:
-        identifier = re.sub(r"\W+", "_", name).strip("_")
+        identifier = "__".join(re.sub(r"\W+", "_", part, flags=re.ASCII).strip("_") for part in name.split("/"))
+        if not identifier[:1].isalpha():  # of names in quotes
+            identifier = f"q_{identifier}"
         while identifier in taken or identifier in C_KEYWORDS:
             identifier += "_"
         taken.add(identifier)
@@ -32,19 +34,23 @@ def identifiers(names: Iterable[str]) -> dict[str, str]:
 class Printer(C11CodePrinter):  # type: ignore[misc]
     """C expressions over ``v->name``; doubles with the digits that give them back exactly.
 
-    ``steady`` are names of variables that do not change while the states do, ``loops`` the loops by their C names.
+    ``names`` are the C names of the variables, ``locals_`` those of partial derivatives, ``steady`` names of variables
+    that do not change while the states do, ``loops`` the loops by their C names.
     """
 
-    def __init__(self, names: dict[str, str], steady: frozenset[str], loops: dict[str, Loop]) -> None:
+    def __init__(
+        self, names: dict[str, str], locals_: dict[str, str], steady: frozenset[str], loops: dict[str, Loop]
+    ) -> None:
         super().__init__({"math_macros": {}})  # C11 has no M_PI
         self.names = names
+        self.locals = locals_
         self.steady = steady
         self.loops = loops
 
     def _print_Symbol(self, expr: sympy.Symbol) -> str:
-        if expr.name in self.names:
-            return f"v->{self.names[expr.name]}"
-        return expr.name if expr.name.startswith("holds[") else local_name(expr.name)
+        if (relation := relation_of(expr)) is not None:
+            return f"holds[{relation}]"
+        return f"v->{self.names[expr.name]}" if expr.name in self.names else self.locals[expr.name]
 
     def _print_Float(self, expr: sympy.Float) -> str:
         return repr(float(expr))
@@ -118,10 +124,9 @@ class Printer(C11CodePrinter):  # type: ignore[misc]
         """The tangent or adjoint of a variable."""
         return f"d->{self.names[name]}"
 
-
-def local_name(name: str) -> str:
-    """The C name of a partial derivative: ``d(car.tyre.F)/d(car.body.v)`` to ``d_car_tyre_F__d_car_body_v``."""
-    return "__".join(re.sub(r"\W+", "_", part).strip("_") for part in name.split("/"))
+    def loop_name(self, loop: Loop) -> str:
+        """The C name of a loop."""
+        return next(name for name, other in self.loops.items() if other is loop)
 
 
 def function(signature: str, lines: list[str]) -> str:
@@ -136,11 +141,16 @@ def function(signature: str, lines: list[str]) -> str:
 def assignment_lines(blocks: Iterable[Block], printer: Printer) -> list[str]:
     """A line for each, with the place that it comes from."""
     return [
-        f"{name_of(block, printer.loops)}_solve(v, holds);"
+        f"{printer.loop_name(block)}_solve(v, holds);"
         if isinstance(block, Loop)
-        else f"v->{printer.names[block.target]} = {printer.text(block.expression)}; /* {block.origin} */"
+        else f"v->{printer.names[block.target]} = {printer.text(block.expression)}; {comment(block.origin)}"
         for block in blocks
     ]
+
+
+def comment(text: str) -> str:
+    """A comment; names in quotes may contain what ends one."""
+    return f"/* {text.replace('*/', '* /').replace('/*', '/ *')} */"
 
 
 def string(text: Any) -> str:

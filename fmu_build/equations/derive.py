@@ -1,14 +1,9 @@
-"""A FlatModel to an EquationSystem: bindings become equations, aliases go, states are chosen.
-
-A variable that is differentiated is a state, unless an equation ties it to other states alone, as
-``compression = x_t - x_c`` does. Then one of them, that with the least stateSelect, is computed from the others, and
-one more derivative follows from the total time derivative of that equation. A fixed start value of the one that is
-computed is passed on to one whose start value is free.
-"""
+"""A FlatModel to an EquationSystem: bindings become equations, aliases go, states are chosen (states.py), constraints
+among them differentiated (index_reduction.py)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import sympy
@@ -20,27 +15,19 @@ from ..ir.models import EquationSystem, FlatModel
 from ..ir.substitution import substitute
 from ..ir.symbols import der, derivative_of, holds, pre, symbol
 from .aliases import Names, constants_and_roots, find_aliases, with_starts_of_aliases
-from .index_reduction import reduce_index
+from .index_reduction import Reduced, reduce_index
 from .states import choose_states, symbols_of
 
 
 def derive(model: FlatModel) -> EquationSystem:
-    """The equation system of ``model``; BuildError where it is not balanced or needs index reduction."""
-    variables = {variable.name: variable for variable in model.variables}
-    bindings = [
-        Equation(symbol(v.name) - v.binding, v.origin)
-        for v in model.variables
-        if v.variability == "continuous" and v.binding is not None
-    ]
-    equations = [*model.equations, *bindings]
-    aliases = find_aliases(equations, variables)
+    """The equation system of ``model``; BuildError where it is not balanced or index reduction fails."""
+    equations = (*model.equations, *_bindings(model))
+    aliases = find_aliases(equations, {v.name: v for v in model.variables})
     model = replace(model, variables=with_starts_of_aliases(model.variables, aliases))
-    variables = {variable.name: variable for variable in model.variables}
+    variables = {v.name: v for v in model.variables}
     values = constants_and_roots(variables, aliases)
     relations, truths = _unique_relations(model.relations, values)
     replacements = {**values, **truths}
-    reduced = [Equation(e.residual.xreplace(replacements), e.origin) for e in equations]
-    reduced = [e for e in reduced if e.residual != 0]
     parameters, bound = _parameters(variables, aliases, replacements)
     inputs = tuple(v.name for v in model.variables if v.causality == "input")
     algebraics = [
@@ -48,41 +35,65 @@ def derive(model: FlatModel) -> EquationSystem:
         for v in model.variables
         if v.variability == "continuous" and v.name not in aliases and v.causality != "input"
     ]
+    reduced = [e for e in substitute(equations, replacements) if e.residual != 0]
     _refuse_input_derivatives(reduced, inputs)
-    before = symbols_of(reduced)
-    given = [
-        Equation(symbol(n) - start, variables[n].origin)
-        for n in algebraics
-        if variables[n].fixed and (start := variables[n].start) is not None and symbol(der(n)) not in before
-    ]  # fixed start values of what is no state
-    chosen, reduced, starts, differentiated = choose_states(reduced, algebraics, variables)
-    index_one = reduce_index(reduced, differentiated, chosen, variables)
-    given += index_one.given
-    states, reduced = index_one.states, index_one.equations
-    occurring, state_names = symbols_of(reduced), set(states)
-    derivatives = [name for name in (der(n) for n in algebraics) if symbol(name) in occurring]
+    chosen, extended, starts, differentiated = choose_states(reduced, algebraics, variables)
+    index_one = reduce_index(extended, differentiated, chosen, variables)
+    given = (*_fixed_algebraics(reduced, algebraics, variables), *index_one.given)
     initial = substitute((*model.initial_equations, *given), replacements)
-    derivatives += sorted(s.name for s in occurring if derivative_of(s.name)[1] > 1)
-    unknowns = (*derivatives, *(n for n in algebraics if n not in state_names))
     return EquationSystem(
         model=model,
-        states=tuple(states),
+        states=tuple(index_one.states),
         invariants=tuple(index_one.invariants),
         inputs=inputs,
-        unknowns=unknowns,
-        equations=tuple(reduced),
+        unknowns=_unknowns(index_one, algebraics),
+        equations=tuple(index_one.equations),
         relations=relations,
         parameters=parameters,
         bound_parameters=bound,
-        starts={name: starts[name].xreplace(values) for name in states if name in starts},
+        starts={name: starts[name].xreplace(values) for name in index_one.states if name in starts},
         aliases=aliases,
-        events=_events(substitute(model.events, replacements), tuple(states), aliases),
+        events=_events(substitute(model.events, replacements), tuple(index_one.states), aliases),
         initial_equations=tuple(e for e in initial if e.residual != 0),
-        starts_before=tuple(
-            Assignment(pre(v.name), v.start.xreplace(values), v.origin)
-            for v in model.variables
-            if v.variability == "discrete" and v.start is not None
-        ),
+        starts_before=_starts_before(model, values),
+    )
+
+
+def _bindings(model: FlatModel) -> list[Equation]:
+    """Declarations ``Real x = expression`` as equations."""
+    return [
+        Equation(symbol(v.name) - v.binding, v.origin)
+        for v in model.variables
+        if v.variability == "continuous" and v.binding is not None
+    ]
+
+
+def _fixed_algebraics(
+    equations: Iterable[Equation], algebraics: Iterable[str], variables: Mapping[str, Variable]
+) -> list[Equation]:
+    """Fixed start values of what is not differentiated."""
+    occurring = symbols_of(equations)
+    return [
+        Equation(symbol(n) - start, variables[n].origin)
+        for n in algebraics
+        if variables[n].fixed and (start := variables[n].start) is not None and symbol(der(n)) not in occurring
+    ]
+
+
+def _unknowns(reduced: Reduced, algebraics: Sequence[str]) -> tuple[str, ...]:
+    """Derivatives, of first order first, then the algebraic variables."""
+    occurring, states = symbols_of(reduced.equations), set(reduced.states)
+    rates = [rate for rate in map(der, algebraics) if symbol(rate) in occurring]
+    higher = sorted(s.name for s in occurring if derivative_of(s.name)[1] > 1)
+    return (*rates, *higher, *(n for n in algebraics if n not in states))
+
+
+def _starts_before(model: FlatModel, values: Mapping[sympy.Symbol, sympy.Expr]) -> tuple[Assignment, ...]:
+    """The values of discrete variables before the start."""
+    return tuple(
+        Assignment(pre(v.name), v.start.xreplace(values), v.origin)
+        for v in model.variables
+        if v.variability == "discrete" and v.start is not None
     )
 
 

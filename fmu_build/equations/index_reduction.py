@@ -17,7 +17,8 @@ import sympy
 
 from ..errors import BuildError
 from ..ir.equations import Equation, Variable
-from ..ir.symbols import TIME, der, derivative_of, symbol
+from ..ir.symbols import symbol
+from .constraints import follower, is_unknown, least_wanted_first, total_derivative
 from .start_point import starts_fit
 
 MAX_ROUNDS = 200
@@ -60,12 +61,13 @@ def reduce_index(
                 " (one equation too many, or a constraint that takes more than differentiating equations)"
             )
         before = [result[i] for i in singular]
-        demoted = None if chains.keys() & set(singular) else _demoted(tied, before, variables)
+        candidates = least_wanted_first(tied, {n for n in tied if variables[n].fixed}, variables)
+        demoted = None if chains.keys() & set(singular) else follower(candidates, before, variables)
         kept = None
         if demoted is None:
             kept = min((i for i in singular if i not in done), key=lambda i: i not in chains)
         for i in singular:
-            derivative = Equation(_total_derivative(result[i], variables), result[i].origin)
+            derivative = Equation(total_derivative(result[i], variables), result[i].origin)
             if i == kept:
                 chains.setdefault(i, []).append(result[i].residual)
                 result[i] = derivative
@@ -95,7 +97,7 @@ def _singular_set(equations: list[Equation], states: set[str], variables: Mappin
     """Equations, one more than their unknowns, the one that is left over first; None if there are none."""
     graph = nx.Graph()
     unknowns = [
-        {s.name for s in e.residual.free_symbols if s.name not in states and _is_unknown(s.name, variables)}
+        {s.name for s in e.residual.free_symbols if s.name not in states and is_unknown(s.name, variables)}
         for e in equations
     ]
     graph.add_nodes_from(range(len(equations)))
@@ -114,26 +116,6 @@ def _singular_set(equations: list[Equation], states: set[str], variables: Mappin
     return found
 
 
-def _is_unknown(name: str, variables: Mapping[str, Variable]) -> bool:
-    variable = variables.get(derivative_of(name)[0])
-    return variable is not None and variable.variability == "continuous" and variable.causality != "input"
-
-
-def _demoted(tied: list[str], equations: list[Equation], variables: Mapping[str, Variable]) -> str | None:
-    """The state that the others will give: one that nobody prefers, with a start value that is not fixed; None where
-    none follows from the others by constant factors."""
-    factors = {n: [e.residual.diff(symbol(n)) for e in equations] for n in tied}
-    solvable = [n for n in tied if not any(varies(factor, variables) for factor in factors[n])]
-    if not solvable:
-        return None
-
-    def wanted(name: str) -> tuple[int, bool, bool, int]:
-        v = variables[name]
-        return (v.state_select, v.fixed, v.start is not None, -tied.index(name))
-
-    return min(solvable, key=wanted)
-
-
 def _given(
     demoted: Variable, equations: list[Equation], tied: list[str], variables: Mapping[str, Variable]
 ) -> list[Equation]:
@@ -142,20 +124,3 @@ def _given(
         return []
     start = sympy.Integer(0) if demoted.start is None else demoted.start
     return [Equation(symbol(demoted.name) - start, demoted.origin)]
-
-
-def varies(factor: sympy.Expr, variables: Mapping[str, Variable]) -> bool:
-    """Whether it changes in time."""
-    return any(s.name == TIME or _is_unknown(s.name, variables) for s in factor.free_symbols)
-
-
-def _total_derivative(equation: Equation, variables: Mapping[str, Variable]) -> sympy.Expr:
-    """The derivative by time, in derivatives of what varies."""
-    residual = equation.residual
-    terms = [residual.diff(symbol(TIME))]
-    for s in sorted(residual.free_symbols, key=str):
-        if s.name in variables and variables[s.name].causality == "input":
-            raise BuildError(f"{equation.origin}: this needs the time derivative of the input {s.name}: not supported")
-        if _is_unknown(s.name, variables):
-            terms.append(residual.diff(s) * symbol(der(s.name)))
-    return sympy.Add(*terms)

@@ -14,7 +14,7 @@ import sympy
 from ..ir.dependencies import needed_for, reaching
 from ..ir.equations import Assignment, Block, Loop
 from ..ir.models import JacobianModel, LoopGradient, LoopPartials, Partials, SortedModel
-from ..ir.symbols import TIME, symbol
+from ..ir.symbols import TIME, partial_name, relation_of, symbol
 
 
 def differentiate(model: SortedModel) -> JacobianModel:
@@ -57,7 +57,7 @@ def _partials(assignments: tuple[Assignment, ...]) -> tuple[Partials, ...]:
             tuple(
                 (s.name, partial)
                 for s in sorted(a.expression.free_symbols, key=str)
-                if s.is_real and (partial := a.expression.diff(s)) != 0
+                if relation_of(s) is None and (partial := a.expression.diff(s)) != 0
             ),
             a.origin,
         )
@@ -80,7 +80,7 @@ def _gradient(
         if value == 0:
             continue
         if not (value.is_number or value.is_Symbol):
-            name = f"d({assignment.target})/d({seed})"
+            name = partial_name(assignment.target, seed)
             locals_.append(Assignment(name, value, assignment.origin))
             value = symbol(name)
         result[seed] = value
@@ -89,7 +89,7 @@ def _gradient(
 
 def loop_partials(loop: Loop) -> LoopPartials:
     """The partial derivatives of the residuals by the loop's arguments."""
-    arguments = sorted((s for s in loop.arguments if s.is_real), key=str)
+    arguments = sorted((s for s in loop.arguments if relation_of(s) is None), key=str)
     return LoopPartials(
         loop,
         tuple(
@@ -116,7 +116,7 @@ def loop_gradients(
         right = tuple(
             sympy.Add(*(value * gradient[seed] for value, gradient in row if seed in gradient)) for row in partials
         )
-        targets = tuple(f"d({name})/d({seed})" for name in loop.unknowns)
+        targets = tuple(partial_name(name, seed) for name in loop.unknowns)
         locals_.append(LoopGradient(loop, targets, right))
         for name, target in zip(loop.unknowns, targets, strict=True):
             result[name][seed] = symbol(target)

@@ -1,4 +1,4 @@
-"""Algebraic loops: equations that determine their unknowns together, and derivatives through them.
+"""Algebraic loops: equations that determine their unknowns together.
 
 A nonlinear loop is torn: as many unknowns as a greedy choice finds are computed one after the other from the rest, the
 iterated ones, so that only these need a good guess. The matrix of Newton's method is that of the whole loop; as the
@@ -15,7 +15,7 @@ from scipy.optimize import linear_sum_assignment
 
 from ..ir.equations import Assignment, Equation, Loop, Variable
 from ..ir.linear import rest, slope, switching_symbols
-from ..ir.symbols import symbol
+from ..ir.symbols import guess_name, symbol
 
 
 def make_loop(names: Sequence[str], matched: Mapping[str, Equation]) -> Loop:
@@ -42,7 +42,7 @@ def make_loop(names: Sequence[str], matched: Mapping[str, Equation]) -> Loop:
         for value in [e.residual.diff(symbol(name))]
         if value != 0
     }
-    guesses = () if is_linear else tuple(f"guess({name})" for name in iterated)
+    guesses = () if is_linear else tuple(guess_name(name) for name in iterated)
     return Loop(tuple(iterated), tuple(explicit), tuple(residuals), slopes, is_linear, guesses)
 
 

@@ -4,7 +4,7 @@ At an event all discrete variables are computed at once, from their values befor
 
     when c then v = e; end when;       becomes       v := if c and not pre(c) then e else pre(v)
 
-The condition is a Boolean variable of its own, ``when[1]``, so that it has a value before. What comes out is computed
+The condition is a Boolean variable of its own, ``when{1}``, so that it has a value before. What comes out is computed
 again and again, each time with the last values as those before, until nothing changes.
 """
 
@@ -21,7 +21,7 @@ from ..ir.conditions import insert
 from ..ir.equations import Assignment, Equation, Relation, Variable
 from ..ir.events import Algorithm, Alternatives, Check, Choice, DiscreteEquations, Reinit, Statement, Together, When
 from ..ir.models import FlatModel
-from ..ir.symbols import INITIAL, is_true, pre, symbol, truth
+from ..ir.symbols import INITIAL, Kind, holds, is_true, kind_of, numbered, pre, symbol, truth
 
 Values = dict[str, sympy.Expr]
 
@@ -42,12 +42,9 @@ def lower(model: FlatModel) -> FlatModel:
         if v.variability == "discrete" and v.causality != "input" and v.name not in work.assigned:
             raise BuildError(f"{v.origin}: no equation determines {v.name}")
     initial = [equation for algorithm in model.initial_algorithms for equation in work.start(algorithm)]
-    samples = [Variable(f"sample[{i + 1}]", type="Boolean", variability="discrete") for i in range(len(model.samples))]
-    rounded = [Variable(a.target, type="Integer", variability="discrete") for a in model.rounded]
-    hidden = [replace(v, hidden=True) for v in (*work.variables, *samples, *rounded)]
     return replace(
         model,
-        variables=(*model.variables, *hidden),
+        variables=(*model.variables, *work.variables, *_collected(model)),
         equations=(*model.equations, *work.equations),
         relations=tuple(work.relations),
         initial_equations=(*model.initial_equations, *initial),
@@ -66,6 +63,15 @@ def lower(model: FlatModel) -> FlatModel:
         rounded=(),
         checks=(),
     )
+
+
+def _collected(model: FlatModel) -> list[Variable]:
+    """The variables that reading expressions has brought along: ticks of clocks, and what is rounded."""
+    ticks = [numbered(Kind.SAMPLE, i) for i in range(len(model.samples))]
+    return [
+        *(Variable(name, type="Boolean", variability="discrete", hidden=True) for name in ticks),
+        *(Variable(a.target, type="Integer", variability="discrete", hidden=True) for a in model.rounded),
+    ]
 
 
 class _Lowering:
@@ -129,7 +135,7 @@ class _Lowering:
             fires = sympy.Or(
                 *(self._becomes_true(insert(c, _symbols(values)), branch.origin) for c in branch.conditions)
             )
-            active = self._flag("fires", sympy.And(fires, *excluded), branch.origin)
+            active = self._flag(Kind.FIRES, sympy.And(fires, *excluded), branch.origin)
             excluded.append(sympy.Not(fires))
             result = dict(values)
             self._execute(branch.statements, result, active, simultaneous=not values)
@@ -184,7 +190,7 @@ class _Lowering:
     def _settle_relations(self, condition: sympy.Expr, known: Mapping[sympy.Symbol, sympy.Expr]) -> None:
         """A relation in an algorithm compares what has been assigned so far."""
         for index, relation in enumerate(self.relations):
-            if sympy.Symbol(f"holds[{index}]") in condition.free_symbols:
+            if holds(index) in condition.free_symbols:
                 self.relations[index] = replace(relation, residual=insert(relation.residual, known))
 
     def _before(self, name: str) -> sympy.Expr:
@@ -198,16 +204,18 @@ class _Lowering:
             return condition
         name = self._conditions.get(condition)
         if name is None:
-            name = self._conditions[condition] = self._new("when", condition, origin, start=1)
+            name = self._conditions[condition] = self._new(Kind.WHEN, condition, origin, start=1)
         return sympy.And(is_true(name), sympy.Not(is_true(pre(name))))
 
-    def _flag(self, kind: str, condition: sympy.Expr, origin: str) -> sympy.Expr:
+    def _flag(self, kind: Kind, condition: sympy.Expr, origin: str) -> sympy.Expr:
         return is_true(self._new(kind, condition, origin, start=0))
 
-    def _new(self, kind: str, condition: sympy.Expr, origin: str, start: int) -> str:
-        name = f"{kind}[{1 + sum(v.name.startswith(kind) for v in self.variables)}]"
+    def _new(self, kind: Kind, condition: sympy.Expr, origin: str, start: int) -> str:
+        name = numbered(kind, sum(kind_of(v.name) is kind for v in self.variables))
         self.variables.append(
-            Variable(name, type="Boolean", variability="discrete", start=sympy.Integer(start), origin=origin)
+            Variable(
+                name, type="Boolean", variability="discrete", start=sympy.Integer(start), hidden=True, origin=origin
+            )
         )
         self.assignments.append(Assignment(name, truth(condition), origin))
         return name

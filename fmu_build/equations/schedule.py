@@ -11,9 +11,20 @@ import sympy
 from ..errors import BuildError
 from ..ir.dependencies import reaching
 from ..ir.equations import Assignment, Block, Relation, Variable
-from ..ir.events import Memory, Schedule, ScheduledCheck, ScheduledReinit, ScheduledSample
+from ..ir.events import (
+    Check,
+    Memory,
+    Message,
+    Reinit,
+    Sample,
+    Schedule,
+    ScheduledCheck,
+    ScheduledReinit,
+    ScheduledSample,
+)
+from ..ir.functions import time_left
 from ..ir.models import EquationSystem
-from ..ir.symbols import INITIAL, TERMINAL, TIME, pre, symbol, time_left, truth
+from ..ir.symbols import INITIAL, TERMINAL, TIME, Kind, kind_of, numbered, pre, symbol, truth
 
 
 @dataclass(frozen=True)
@@ -28,59 +39,74 @@ class Scheduled:
 def schedule(system: EquationSystem, continuous: Sequence[Block]) -> Scheduled:
     """The schedule of ``system``, whose unknowns ``continuous`` computes; BuildError where a loop leads through it."""
     events = system.events
-    times = [(f"time_event[{i + 1}]", r) for i, r in enumerate(r for r in system.relations if r.until is not None)]
-    extra = [Assignment(name, _until(relation), relation.origin) for name, relation in times]
-    reinits, samples, checks = [], [], []
-    for i, reinit in enumerate(events.reinits, start=1):
-        entry = ScheduledReinit(reinit.state, f"reinit[{i}].active", f"reinit[{i}].value")
-        reinits.append(entry)
-        extra.append(Assignment(entry.active, truth(reinit.active), reinit.origin))
-        extra.append(Assignment(entry.value, reinit.value, reinit.origin))
-    for i, sample in enumerate(events.samples, start=1):
-        clock = ScheduledSample(f"sample[{i}]", f"sample[{i}].start", f"sample[{i}].interval")
-        samples.append(clock)
-        extra.append(Assignment(clock.start, sample.start, sample.origin))
-        extra.append(Assignment(clock.interval, sample.interval, sample.origin))
-    tests = []
-    for i, check in enumerate(events.checks, start=1):
-        checks.append(ScheduledCheck(f"check[{i}]", check.message, check.kind))
-        tests.append(Assignment(f"check[{i}]", truth(check.violated), check.origin))
-    extra += tests[: events.n_event_checks]
-    at_any_time = tests[events.n_event_checks :]
+    times = _time_events(system.relations)
+    reinits, of_reinits = _reinits(events.reinits)
+    samples, of_samples = _samples(events.samples)
+    checks, tests = _checks(events.checks)
+    extra = [*times, *of_reinits, *of_samples, *tests[: events.n_event_checks]]
     own = [*events.assignments, *extra]
     memories = _memories(system, own, continuous)
     wanted = {symbol(a.target) for a in own} | {symbol(m.name) for m in memories}
     wanted |= {s for check in events.checks[: events.n_event_checks] for s in _values(check.message)}
     ordered = _ordered([*continuous, *own])
-    named = {name: relation for name, relation in times}
     return Scheduled(
         Schedule(
             assignments=reaching(wanted, ordered) if own or memories else (),
-            check_assignments=_for_checks(system, continuous, at_any_time),
+            check_assignments=_for_checks(system, continuous, tests[events.n_event_checks :]),
             memories=memories,
-            reinits=tuple(reinits),
-            samples=tuple(samples),
-            time_events=tuple(named),
-            checks=tuple(checks),
+            reinits=reinits,
+            samples=samples,
+            time_events=tuple(a.target for a in times),
+            checks=checks,
             n_event_checks=events.n_event_checks,
             asks_phase=any(symbol(flag) in block.arguments for block in continuous for flag in (INITIAL, TERMINAL)),
         ),
         variables=tuple(
-            Variable(name, type="Real", variability="discrete", hidden=True, origin=a.origin)
+            Variable(a.target, type="Real", variability="discrete", hidden=True, origin=a.origin)
             for a in (*extra, *tests)
-            for name in [a.target]
         ),
-        residuals=tuple(_residuals(system.relations, [name for name, _ in times])),
+        residuals=tuple(_residuals(system.relations, [a.target for a in times])),
     )
 
 
-def _until(relation: Relation) -> sympy.Expr:
-    assert relation.until is not None
-    return relation.until
+def _time_events(relations: Sequence[Relation]) -> list[Assignment]:
+    timed = [(r.until, r.origin) for r in relations if r.until is not None]
+    return [Assignment(numbered(Kind.TIME_EVENT, i), until, origin) for i, (until, origin) in enumerate(timed)]
 
 
-def _values(message: object) -> set[sympy.Symbol]:
-    return set().union(*(value.free_symbols for value, _ in getattr(message, "values", ())))
+def _reinits(reinits: Sequence[Reinit]) -> tuple[tuple[ScheduledReinit, ...], list[Assignment]]:
+    """New values of states, and how they and their conditions are computed."""
+    entries, assignments = [], []
+    for i, reinit in enumerate(reinits):
+        entry = ScheduledReinit(reinit.state, numbered(Kind.REINIT, i, "active"), numbered(Kind.REINIT, i, "value"))
+        entries.append(entry)
+        assignments.append(Assignment(entry.active, truth(reinit.active), reinit.origin))
+        assignments.append(Assignment(entry.value, reinit.value, reinit.origin))
+    return tuple(entries), assignments
+
+
+def _samples(samples: Sequence[Sample]) -> tuple[tuple[ScheduledSample, ...], list[Assignment]]:
+    """Clocks, and how their times are computed."""
+    entries, assignments = [], []
+    for i, sample in enumerate(samples):
+        entry = ScheduledSample(*(numbered(Kind.SAMPLE, i, part) for part in ("", "start", "interval")))
+        entries.append(entry)
+        assignments.append(Assignment(entry.start, sample.start, sample.origin))
+        assignments.append(Assignment(entry.interval, sample.interval, sample.origin))
+    return tuple(entries), assignments
+
+
+def _checks(checks: Sequence[Check]) -> tuple[tuple[ScheduledCheck, ...], list[Assignment]]:
+    """Checks, and how it is computed whether they are violated."""
+    names = [numbered(Kind.CHECK, i) for i in range(len(checks))]
+    return (
+        tuple(ScheduledCheck(name, check.message, check.kind) for name, check in zip(names, checks, strict=True)),
+        [Assignment(name, truth(check.violated), check.origin) for name, check in zip(names, checks, strict=True)],
+    )
+
+
+def _values(message: Message) -> set[sympy.Symbol]:
+    return set().union(*(value.free_symbols for value, _ in message.values))
 
 
 def _for_checks(system: EquationSystem, continuous: Sequence[Block], tests: list[Assignment]) -> tuple[Block, ...]:
@@ -102,7 +128,7 @@ def _memories(system: EquationSystem, own: Sequence[Assignment], continuous: Seq
         *(block.arguments for block in (*own, *continuous)), *(r.residual.free_symbols for r in system.relations)
     )
     asked = {s.name for s in symbols}
-    calculated = {a.target for a in system.events.assignments if not a.target.startswith("fires[")}
+    calculated = {a.target for a in system.events.assignments if kind_of(a.target) is not Kind.FIRES}
     names = [v.name for v in variables.values() if v.name in calculated or pre(v.name) in asked]
     return tuple(Memory(name, pre(name), variables[name].variability == "discrete") for name in names)
 

@@ -18,7 +18,7 @@ from ..ir.dependencies import reaching
 from ..ir.equations import Assignment, Block, Equation, Loop, Relation, Variable
 from ..ir.linear import rest, slope
 from ..ir.models import EquationSystem, SortedModel
-from ..ir.symbols import INITIAL, TERMINAL, der, derivative_of, relation_name, symbol
+from ..ir.symbols import INITIAL, TERMINAL, Kind, derivative, derivative_of, kind_of, residual_names, symbol
 from ..ir.units import per_second
 from .loops import guess_variables, make_loop
 from .schedule import Scheduled, schedule
@@ -31,9 +31,10 @@ def sort(system: EquationSystem) -> SortedModel:
     solved = _blocks(list(system.equations), list(system.unknowns))
     events = schedule(system, solved)
     variables |= _for_events(events, variables)
+    names = residual_names(len(system.relations), variables)
     residuals = [
-        Assignment(relation_name(i), residual, relation.origin)
-        for i, (residual, relation) in enumerate(zip(events.residuals, system.relations, strict=True))
+        Assignment(name, residual, relation.origin)
+        for name, residual, relation in zip(names, events.residuals, system.relations, strict=True)
     ]
     starts = _starts(system)
     variables |= {
@@ -59,6 +60,7 @@ def sort(system: EquationSystem) -> SortedModel:
         start_values={a.target: float(a.expression) for a in starts if _is_start_value(a, system)} | guesses,
         assignments=(*solved, *residuals, *_copies(system, variables)),
         relations=system.relations,
+        residuals=tuple(names),
         free_parameters=system.free_parameters,
         schedule=events.schedule,
     )
@@ -94,7 +96,7 @@ def _is_start_value(block: Block, system: EquationSystem) -> TypeGuard[Assignmen
     """Whether it is a number that can be set instead, or that a discrete variable has before the start."""
     if isinstance(block, Loop):
         return False
-    is_kept = block.target in system.states or block.target.startswith("pre(")
+    is_kept = block.target in system.states or kind_of(block.target) is Kind.BEFORE
     return bool(is_kept and block.expression.is_number)
 
 
@@ -113,7 +115,7 @@ def _with_derivatives(system: EquationSystem) -> dict[str, Variable]:
     for unknown in sorted(system.unknowns, key=lambda name: derivative_of(name)[1]):
         if unknown not in variables:
             base, order = derivative_of(unknown)
-            of = variables[base if order == 1 else f"der({base},{order - 1})" if order > 2 else der(base)]
+            of = variables[derivative(base, order - 1)]
             variables[unknown] = Variable(
                 unknown, f"Time derivative of {of.name}", per_second(of.unit), hidden=of.hidden
             )

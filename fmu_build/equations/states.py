@@ -1,4 +1,10 @@
-"""Which differentiated variables are states, and which follow from those by an equation among them alone."""
+"""Which differentiated variables are states, and which follow from those by an equation among them alone.
+
+A variable that is differentiated is a state, unless an equation ties it to other states alone, as
+``compression = x_t - x_c`` does. Then one of them, that with the least stateSelect, is computed from the others, and
+one more derivative follows from the total time derivative of that equation. A fixed start value of the one that is
+computed is passed on to one whose start value is free. (index_reduction.py finds what several equations hide together.)
+"""
 
 from __future__ import annotations
 
@@ -8,8 +14,8 @@ import sympy
 
 from ..errors import BuildError
 from ..ir.equations import Equation, Variable
-from ..ir.symbols import TIME, der, symbol
-from .index_reduction import varies
+from ..ir.symbols import der, symbol
+from .constraints import follower, least_wanted_first, total_derivative
 from .start_point import starts_fit
 
 
@@ -24,23 +30,19 @@ def choose_states(
     """The states, the equations with those that are added, the start values of the states, and what was
     differentiated."""
     differentiated: list[Equation] = []
-    names = {symbol(n): n for n in algebraics}
     present = symbols_of(equations)
     states = [n for n in algebraics if symbol(der(n)) in present]
     starts = {n: sympy.Integer(0) if (start := variables[n].start) is None else start for n in states}
     fixed = {n for n in states if variables[n].fixed}
-    derivatives = {symbol(der(n)) for n in algebraics}
+    names, rates = {symbol(n) for n in algebraics}, {symbol(der(n)) for n in algebraics}
     result = list(equations)
     for equation in equations:
         symbols = equation.residual.free_symbols
-        occurring = [names[s] for s in symbols if s in names]
-        if not occurring or symbols & derivatives or not set(occurring) <= set(states):
+        tied = {s.name for s in symbols & names}
+        if not tied or symbols & rates or not tied <= set(states):
             continue
-        candidates = sorted(
-            occurring,
-            key=lambda n: (variables[n].state_select, n in fixed, variables[n].start is not None, -algebraics.index(n)),
-        )
-        demoted = next((n for n in candidates if not varies(equation.residual.diff(symbol(n)), variables)), None)
+        candidates = least_wanted_first(tied, fixed, variables)
+        demoted = follower(candidates, [equation], variables)
         if demoted is None:
             continue  # reduce_index() keeps all of them
         if demoted in fixed:
@@ -55,7 +57,7 @@ def choose_states(
                 )
         states.remove(demoted)
         differentiated.append(equation)
-        result.append(Equation(_total_derivative(equation, demoted, set(occurring), variables), equation.origin))
+        result.append(Equation(_rate_from_others(equation, demoted, variables), equation.origin))
     return tuple(states), result, starts, differentiated
 
 
@@ -66,14 +68,7 @@ def _start_from_others(equation: Equation, name: str, starts: Mapping[str, sympy
     return solution.xreplace({symbol(n): start for n, start in starts.items() if n != name})
 
 
-def _total_derivative(
-    equation: Equation, demoted: str, occurring: set[str], variables: Mapping[str, Variable]
-) -> sympy.Expr:
-    """der(demoted) less what the chain rule makes of it."""
-    residual = equation.residual
-    moving = {name for name in occurring if name != demoted}
-    for s in residual.free_symbols:
-        if s.name in variables and variables[s.name].causality == "input":
-            raise BuildError(f"{equation.origin}: this needs the time derivative of the input {s.name}: not supported")
-    rates = sum((residual.diff(symbol(n)) * symbol(der(n)) for n in sorted(moving)), residual.diff(symbol(TIME)))
-    return symbol(der(demoted)) + rates / residual.diff(symbol(demoted))
+def _rate_from_others(equation: Equation, name: str, variables: Mapping[str, Variable]) -> sympy.Expr:
+    """der(name) less what the chain rule makes of it."""
+    rate, slope = symbol(der(name)), equation.residual.diff(symbol(name))
+    return rate + (total_derivative(equation, variables) - slope * rate) / slope

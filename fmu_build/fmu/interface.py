@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from ..ir.dependencies import dependencies, start_value, tunable_parameters
+from ..ir.dependencies import start_value, tunable_parameters
 from ..ir.equations import EnumerationType, Variable
 from ..ir.models import DEFAULT_TOLERANCE, SortedModel, Terminal
-from ..ir.symbols import TIME, relation_name
+from ..ir.symbols import TIME
 
 GENERATION_TOOL = "OverrunHitch fmu_build"
 Dependencies = dict[str, tuple[str, ...]]  # names of unknowns to names of knowns, both listed
@@ -91,17 +91,16 @@ def expose(model: SortedModel, identifier: str, terminals: tuple[Terminal, ...] 
     roles = _Roles(model)
     candidates = (Variable(TIME, "Time", unit="s"), *model.variables.values())
     entries = tuple(roles.entry(v) for v in candidates if roles.listed(v))
-    indicators = [relation_name(i) for i in range(len(model.relations))]
     return Interface(
         identifier=identifier,
         name=model.name,
         description=model.description,
         entries=entries,
-        event_indicators=tuple(roles.entry(model.variables[name]) for name in indicators),
+        event_indicators=tuple(roles.entry(model.variables[name]) for name in model.residuals),
         experiment=_experiment(model),
         terminals=terminals,
         has_checks=bool(model.schedule.check_assignments),
-        **_structure(model, entries, indicators),
+        **_structure(model, entries),
     )
 
 
@@ -157,8 +156,8 @@ def _experiment(model: SortedModel) -> dict[str, str]:
     return {name: repr(value) for name, value in values.items() if value is not None}
 
 
-def _structure(model: SortedModel, entries: tuple[Entry, ...], indicators: list[str]) -> dict[str, Dependencies]:
-    sources = dependencies(model)
+def _structure(model: SortedModel, entries: tuple[Entry, ...]) -> dict[str, Dependencies]:
+    sources = model.sources
     order = {entry.name: position for position, entry in enumerate(entries)}
     during = {*model.states, *model.inputs, TIME}
     starts = _sources_of_starts(model, sources)
@@ -180,7 +179,7 @@ def _structure(model: SortedModel, entries: tuple[Entry, ...], indicators: list[
         "outputs": {name: sort(now(name) & during) for name in outputs},
         "derivatives": {name: sort(now(name) & during) for name in model.derivatives},
         "initial_unknowns": {name: sort(at_start(name)) for name in sort(frozenset(initial))},
-        "indicator_sources": {name: sort(now(name) & during) for name in indicators},
+        "indicator_sources": {name: sort(now(name) & during) for name in model.residuals},
     }
 
 

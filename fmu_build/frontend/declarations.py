@@ -16,8 +16,6 @@ from .expressions import unwrap
 from .values import elements
 
 Node = dict[str, Any]
-
-
 STATE_SELECT = {"Never": -2, "Avoid": -1, "Default": 0, "Prefer": 1, "Always": 2}
 
 
@@ -48,13 +46,18 @@ def declared_names(flat: Node) -> Declared:
         kind = flat["variable_type_names"].get(name, "Real")
         variability = unwrap(node["variability"])
         types[name] = "Enumeration" if kind in enumerations else kind
-        names = [name, *(element_names(name, node["dims"]) if node["dims"] else ())]
+        names = [name, *_names(node)]
         types.update(dict.fromkeys(names, types[name]))
         if variability in {"Parameter", "Constant"}:
             constant.update(names)
         if variability == "Discrete" or kind != "Real" or name in assigned:
             discrete.update(names)
     return Declared(types, frozenset(discrete), frozenset(constant), flat["enum_literal_ordinals"])
+
+
+def _names(node: Node) -> list[str]:
+    """The names of all elements; its own if it is no array."""
+    return element_names(node["name"], node["dims"]) if node["dims"] else [node["name"]]
 
 
 def _variability(node: Node, declared: Declared) -> str:
@@ -64,70 +67,79 @@ def _variability(node: Node, declared: Declared) -> str:
 
 def variables_of(node: Node, flat: Node, reader: EventReader, kinds: dict[str, EnumerationType]) -> list[Variable]:
     """A variable, or one for each element of an array."""
-    name, origin, dims = node["name"], reader.sources.place(node["source_span"]), node["dims"]
-    kind = reader.declared.types[name]
-    variability = _variability(node, reader.declared)
-    if kind not in {"Real", "Integer", "Boolean", "Enumeration"}:
-        raise BuildError(f"{origin}: {name} is of type {kind}: supported are Real, Integer, Boolean and enumerations")
-
-    def expressions(key: str) -> list[sympy.Expr | None]:
-        if node[key] is None:
-            return [None] * len(names)
-        if key == "binding" and variability == "continuous":
-            with reader.equation(origin):
-                value = reader.read(node[key])
-        else:
-            value = (reader.read if key == "binding" and variability == "discrete" else reader.read_event_free)(
-                node[key]
-            )
-        return elements(spread(value, dims)) if dims else [value]
-
-    def numbers(key: str) -> list[float | None]:
-        return [None if v is None else _number(v, key, name, origin, reader) for v in expressions(key)]
-
-    names = element_names(name, dims) if dims else [name]
-    is_open = variability == "continuous" and _has_no_start(node)
-    is_of_type = any(reader.sources.is_in_type(span) for span in _spans(node["start"]))
-    is_top_level = "." not in name
-    causality = unwrap(node["causality"]).lower()
+    whole = _whole(node, flat, reader, kinds)
+    names = _names(node)
+    is_open = whole.variability == "continuous" and _has_no_start(node)
     given = node["fixed"] if isinstance(node["fixed"], list) else [node["fixed"]]
-    fixed = [variability == "parameter" if f is None else bool(f) for f in given or [None]]
+    fixed = [whole.variability == "parameter" if f is None else bool(f) for f in given or [None]]
     attributes = zip(
         names,
-        expressions("start"),
+        _expressions("start", node, whole, reader),
         fixed * len(names) if len(fixed) == 1 else fixed,
-        expressions("binding"),
-        numbers("min"),
-        numbers("max"),
-        numbers("nominal"),
+        _expressions("binding", node, whole, reader),
+        *(_numbers(key, node, whole, reader) for key in ("min", "max", "nominal")),
         strict=True,
     )
     variables = [
-        Variable(
+        replace(
+            whole,
             name=element,
-            description=node["description"] or "",
-            unit=node["unit"] or "",
-            quantity=node["quantity"] or "",
-            causality=causality if is_top_level and causality in {"input", "output"} else "local",
-            variability=variability,
-            type=kind,
-            enumeration=kinds.get(flat["variable_type_names"].get(name, "")),
             start=None if is_open and not is_fixed else start,
-            has_start_of_type=is_of_type,
             fixed=is_fixed,
             binding=binding,
             min=lowest,
             max=highest,
             nominal=nominal,
             guess=_guess(start, reader),
-            hidden=bool(node["is_protected"]),
-            final=bool(flat["variable_final_flags"].get(name, False)),
-            state_select=STATE_SELECT[unwrap(node["state_select"])],
-            origin=origin,
         )
         for element, start, is_fixed, binding, lowest, highest, nominal in attributes
     ]
     return [_with_value(v) if v.causality == "input" and v.binding is not None else v for v in variables]
+
+
+def _whole(node: Node, flat: Node, reader: EventReader, kinds: dict[str, EnumerationType]) -> Variable:
+    """What a declaration says of all elements; BuildError where its type is not supported."""
+    name, origin = node["name"], reader.sources.place(node["source_span"])
+    kind = reader.declared.types[name]
+    if kind not in {"Real", "Integer", "Boolean", "Enumeration"}:
+        raise BuildError(f"{origin}: {name} is of type {kind}: supported are Real, Integer, Boolean and enumerations")
+    causality = unwrap(node["causality"]).lower()
+    is_port = "." not in name and causality in {"input", "output"}
+    return Variable(
+        name=name,
+        description=node["description"] or "",
+        unit=node["unit"] or "",
+        quantity=node["quantity"] or "",
+        causality=causality if is_port else "local",
+        variability=_variability(node, reader.declared),
+        type=kind,
+        enumeration=kinds.get(flat["variable_type_names"].get(name, "")),
+        has_start_of_type=any(reader.sources.is_in_type(span) for span in _spans(node["start"])),
+        hidden=bool(node["is_protected"]),
+        final=bool(flat["variable_final_flags"].get(name, False)),
+        state_select=STATE_SELECT[unwrap(node["state_select"])],
+        origin=origin,
+    )
+
+
+def _expressions(key: str, node: Node, whole: Variable, reader: EventReader) -> list[sympy.Expr | None]:
+    """The values of an attribute, one for each element; None where it is not given."""
+    if node[key] is None:
+        return [None] * len(_names(node))
+    if key == "binding" and whole.variability == "continuous":
+        with reader.equation(whole.origin):
+            value = reader.read(node[key])
+    elif key == "binding" and whole.variability == "discrete":
+        value = reader.read(node[key])
+    else:
+        value = reader.read_event_free(node[key])
+    return elements(spread(value, node["dims"])) if node["dims"] else [value]
+
+
+def _numbers(key: str, node: Node, whole: Variable, reader: EventReader) -> list[float | None]:
+    """The same as numbers."""
+    values = _expressions(key, node, whole, reader)
+    return [None if value is None else _number(value, key, whole, reader) for value in values]
 
 
 def _with_value(variable: Variable) -> Variable:
@@ -155,8 +167,10 @@ def _guess(start: sympy.Expr | None, reader: EventReader) -> float:
     return float(number) if number.is_number else 0.0
 
 
-def _number(value: sympy.Expr, key: str, name: str, origin: str, reader: EventReader) -> float:
+def _number(value: sympy.Expr, key: str, whole: Variable, reader: EventReader) -> float:
     number = reader.components.number(value)
     if not number.is_number:
-        raise BuildError(f"{origin}: {key} of {name} is {value}: give it a number, or an expression of parameters")
+        raise BuildError(
+            f"{whole.origin}: {key} of {whole.name} is {value}: give it a number, or an expression of parameters"
+        )
     return float(number)

@@ -19,7 +19,8 @@ from ..errors import BuildError
 from ..ir.conditions import compare
 from ..ir.equations import Assignment, EnumerationType, Relation
 from ..ir.events import Message, Sample
-from ..ir.symbols import INITIAL, TERMINAL, TIME, holds, is_true, pre, reach_time, round_down, symbol, truth
+from ..ir.functions import reach_time, round_down
+from ..ir.symbols import INITIAL, TERMINAL, TIME, Kind, holds, is_true, kind_of, numbered, pre, symbol, truth
 from .expressions import RELATIONS, ExpressionReader
 from .sources import Sources
 from .values import Value, combine, each, elements
@@ -186,7 +187,7 @@ class EventReader(ExpressionReader):
         if function == "Sample" and len(arguments) == 2:
             start, interval = (self.read_event_free(argument) for argument in arguments)
             self.samples.append(Sample(start, interval, self.sources.find_place(body)))
-            return is_true(sample_name(len(self.samples) - 1))
+            return is_true(numbered(Kind.SAMPLE, len(self.samples) - 1))
         if function in {"Pre", "Edge", "Change"}:
             name = self._variable_name(super().read(arguments[0]), arguments[0])
             if function == "Pre":
@@ -206,10 +207,9 @@ class EventReader(ExpressionReader):
 
     def _changes_at_events_alone(self, expression: sympy.Expr) -> bool:
         return all(
-            not s.is_real
-            or s.name in self.declared.discrete
+            s.name in self.declared.discrete
             or s.name in self.declared.constant
-            or s.name.startswith(("pre(", "floor["))
+            or kind_of(s.name) in {Kind.HOLDS, Kind.BEFORE, Kind.ROUNDED}
             or s.name in {INITIAL, TERMINAL}
             for s in expression.free_symbols
         )
@@ -260,7 +260,7 @@ class EventReader(ExpressionReader):
         if self._event_free or self._changes_at_events_alone(x):
             return round_down(x)
         text, origin = self.sources.text(body["span"]), self.sources.find_place(body)
-        name = f"floor[{len(self.rounded) + 1}]"
+        name = numbered(Kind.ROUNDED, len(self.rounded))
         before = symbol(pre(name))
         below = self._is_below(x, before, text, origin)
         inside = self._is_below(x, before + 1, text, origin)
@@ -278,11 +278,6 @@ class EventReader(ExpressionReader):
         rest, slope = line
         before = self._before(reach_time(limit, rest, slope), text, origin)
         return before if slope > 0 else sympy.Not(before)
-
-
-def sample_name(index: int) -> str:
-    """Name of the variable that is true at the ticks of sample ``index``."""
-    return f"sample[{index + 1}]"
 
 
 def enumeration_types(flat: Mapping[str, Any]) -> dict[str, EnumerationType]:

@@ -12,7 +12,7 @@ from sympy.logic.boolalg import Boolean
 from ..errors import BuildError
 from ..ir.conditions import compare
 from ..ir.equations import Assignment, Relation
-from ..ir.symbols import der, holds, symbol
+from ..ir.symbols import der, holds, shared_name, symbol
 from .builtin import ARRAY, BINARY, SCALAR, SIZES
 from .choices import CHOICES
 from .components import Components
@@ -94,7 +94,7 @@ class ExpressionReader:
     def _share(self, name: str, scalar: sympy.Expr | None) -> sympy.Expr | None:
         if scalar is None or not _is_large(scalar):
             return scalar
-        variable = f"{name}({len(self.shared) + 1})"
+        variable = shared_name(name, len(self.shared))
         self.shared.append(Assignment(variable, scalar, self._origin))
         return symbol(variable)
 

@@ -9,7 +9,7 @@ import numpy as np
 import sympy
 
 from ..ir.conditions import compare
-from ..ir.symbols import no_number
+from ..ir.functions import no_number
 from .reader import Reader
 from .values import Value, combine
 

@@ -1,3 +1,14 @@
 """The values that pass between stages, and the algebra on them."""
 
-__all__ = ["conditions", "dependencies", "equations", "events", "linear", "models", "substitution", "symbols", "units"]
+__all__ = [
+    "conditions",
+    "dependencies",
+    "equations",
+    "events",
+    "functions",
+    "linear",
+    "models",
+    "substitution",
+    "symbols",
+    "units",
+]

@@ -1,4 +1,4 @@
-"""What depends on what: slices and dependencies of a SortedModel."""
+"""What follows from the dependencies in a SortedModel: slices, what is steady, which parameters have an effect."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import sympy
 
 from .equations import Assignment, Block
 from .models import LoopGradient, SortedModel
-from .symbols import symbol
+from .symbols import TIME, symbol
 
 
 def needed_for(targets: Iterable[str], model: SortedModel) -> tuple[Block, ...]:
@@ -17,29 +17,9 @@ def needed_for(targets: Iterable[str], model: SortedModel) -> tuple[Block, ...]:
     return reaching({symbol(name) for name in targets}, model.assignments)
 
 
-def dependencies(model: SortedModel) -> dict[str, frozenset[str]]:
-    """For each computed variable the states, inputs, parameters and time that it depends on at a fixed time.
-
-    A conditional depends on what its condition depends on.
-    """
-    leaves = (*model.states, *model.inputs, *model.parameters, *model.free_parameters, "time")
-    known = {name: frozenset((name,)) for name in leaves}
-    result: dict[str, frozenset[str]] = dict(known)
-    schedule = model.schedule
-    for block in (
-        *model.parameter_assignments,
-        *schedule.assignments,
-        *model.assignments,
-        *schedule.check_assignments,
-    ):
-        result |= dict.fromkeys(block.targets, _sources(block.arguments, model, result))
-    return {name: sources for name, sources in result.items() if name not in known}
-
-
 def tunable_parameters(model: SortedModel) -> frozenset[str]:
     """The parameters, calculated ones included, that more than start values depend on: changing them has an effect."""
-    sources = dependencies(model)
-    schedule = model.schedule
+    sources, schedule = model.sources, model.schedule
     used = (*model.assignments, *schedule.assignments, *schedule.check_assignments)
     effective = frozenset().union(*(sources.get(name, frozenset()) for block in used for name in block.targets))
     effective &= {*model.parameters}
@@ -49,9 +29,9 @@ def tunable_parameters(model: SortedModel) -> frozenset[str]:
 
 def steady(model: SortedModel) -> frozenset[str]:
     """What follows from parameters and inputs alone: it does not change while the states do."""
-    sources = dependencies(model)
-    moving = {*model.states, "time"}
-    return frozenset((*model.parameters, *model.inputs)) | {name for name in sources if not sources[name] & moving}
+    moving = {*model.states, TIME}
+    unmoved = {name for name, sources in model.sources.items() if not sources & moving}
+    return frozenset((*model.parameters, *model.inputs)) | unmoved
 
 
 def start_value(name: str, model: SortedModel) -> float:
@@ -63,13 +43,6 @@ def start_value(name: str, model: SortedModel) -> float:
         return 0.0
     value = variable.start if variable.binding is None else variable.binding
     return 0.0 if value is None else float(value)
-
-
-def _sources(arguments: set[sympy.Symbol], model: SortedModel, result: dict[str, frozenset[str]]) -> frozenset[str]:
-    symbols = set(arguments)
-    for index in sorted(int(s.name[6:-1]) for s in arguments if s.name.startswith("holds[")):
-        symbols |= model.relations[index].residual.free_symbols
-    return frozenset().union(*(result.get(s.name, frozenset()) for s in symbols))
 
 
 Computed = TypeVar("Computed", Assignment, Block, Assignment | LoopGradient)

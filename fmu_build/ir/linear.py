@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 import sympy
 
-from ..ir.equations import Equation
-from ..ir.symbols import round_down, symbol
+from .equations import Equation
+from .functions import round_down
+from .symbols import symbol
 
 ZERO = sympy.Integer(0)
 

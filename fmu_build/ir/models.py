@@ -1,4 +1,4 @@
-"""The values that pass between the stages. All are frozen; expressions are SymPy's, with the names of symbols.py."""
+"""The values that pass between the stages. All are frozen; expressions are SymPy's, with the names of ir/symbols.py."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import sympy
 
 from .equations import Assignment, Block, Equation, Loop, Relation, Variable
 from .events import Algorithm, Alternatives, Check, DiscreteEquations, Sample, Schedule, When
-from .symbols import INITIAL, TERMINAL, TIME, der
+from .symbols import INITIAL, TERMINAL, TIME, der, relation_of
 
 TOKEN_PLACEHOLDER = "{00000000-0000-0000-0000-000000000000}"  # stands where the content's hash will stand
 DEFAULT_TOLERANCE = 1e-6  # relative tolerance where the experiment annotation gives none (OpenModelica's default too)
@@ -146,7 +146,8 @@ class SortedModel:
     start_assignments: tuple[Block, ...]  # states whose start follows from parameters
     start_values: dict[str, float] = field(hash=False)  # states whose start is a number, and guesses of loops
     assignments: tuple[Block, ...]
-    relations: tuple[Relation, ...]  # the residual of number i is the variable relation_name(i)
+    relations: tuple[Relation, ...]
+    residuals: tuple[str, ...]  # of the relations, as variables
     free_parameters: tuple[str, ...] = ()  # start_assignments calculate them
     schedule: Schedule = field(default_factory=Schedule)
 
@@ -183,6 +184,33 @@ class SortedModel:
         others = tuple(name for name in dict.fromkeys(blocks) if name not in known)
         discrete = (n for n in (*self.free_parameters, *self.event_variables) if n not in {*known, *others})
         return {name: index for index, name in enumerate((*leading, *calculated, *others, *discrete))}
+
+    @cached_property
+    def sources(self) -> dict[str, frozenset[str]]:
+        """For each computed variable the states, inputs, parameters and time that it depends on at a fixed time.
+
+        A conditional depends on what its condition depends on.
+        """
+        leaves = (*self.states, *self.inputs, *self.parameters, *self.free_parameters, TIME)
+        known = {name: frozenset((name,)) for name in leaves}
+        result = dict(known)
+        blocks = (
+            *self.parameter_assignments,
+            *self.schedule.assignments,
+            *self.assignments,
+            *self.schedule.check_assignments,
+        )
+        for block in blocks:
+            symbols = set(block.arguments)
+            symbols.update(*(self._compared(s) for s in block.arguments))
+            reached = frozenset[str]().union(*(result.get(s.name, frozenset()) for s in symbols))
+            result |= dict.fromkeys(block.targets, reached)
+        return {name: sources for name, sources in result.items() if name not in known}
+
+    def _compared(self, truth: sympy.Symbol) -> set[sympy.Symbol]:
+        """What the relation is about whose truth value it is; nothing if it is a variable."""
+        index = relation_of(truth)
+        return set() if index is None else set(self.relations[index].residual.free_symbols)
 
 
 @dataclass(frozen=True)

@@ -1,14 +1,19 @@
-"""Names of variables inside expressions, and functions that SymPy does not have.
+"""Names of variables inside expressions: those of the model, and our own.
 
 A variable is ``symbol(name)``, the time derivative of ``x`` is ``symbol(der(x))``, its value before an event
 ``symbol(pre(x))`` and the truth value of relation ``i`` is ``holds(i)``. Real literals are SymPy Floats of double
 precision. A Boolean variable is 0 or 1, and true as a condition where it is above 0.5 (``is_true``). An enumeration is
 the number of its literal, from 1.
+
+A name of ours is a word that tells its kind, and a bracket: ``pre(x)``, ``fires{1}``. No name in Modelica begins so,
+where round and curly brackets stand in quotes alone, so that none is taken for one of ours.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
+from enum import Enum
 
 import sympy
 
@@ -17,16 +22,51 @@ INITIAL = "initial()"  # Boolean variables: true while the model is initialized,
 TERMINAL = "terminal()"
 
 
+class Kind(Enum):
+    """What a name of ours is for, with the word that it begins with."""
+
+    DERIVATIVE = "der"
+    BEFORE = "pre"
+    GUESS = "guess"
+    PARTIAL = "d"
+    HOLDS = "holds"
+    WHEN = "when"  # the condition of a when-clause
+    FIRES = "fires"  # whether a branch of a when-clause is carried out
+    SAMPLE = "sample"  # whether a clock ticks; its start and interval
+    ROUNDED = "floor"  # what has been rounded down
+    TIME_EVENT = "time_event"  # when it is
+    REINIT = "reinit"  # whether it is active; its value
+    CHECK = "check"  # whether it is violated
+
+
+_OURS = re.compile(rf"({'|'.join(kind.value for kind in Kind)})[({{]")
+
+
 def symbol(name: str) -> sympy.Symbol:
     """The SymPy symbol of the variable ``name``."""
     return sympy.Symbol(name, real=True)
 
 
+def kind_of(name: str) -> Kind | None:
+    """The kind of a name of ours; None for names of the model."""
+    found = _OURS.match(name)
+    return Kind(found.group(1)) if found else None
+
+
+def numbered(kind: Kind, index: int, part: str = "") -> str:
+    """Name of number ``index``, from zero, of a kind, or of a part of it: ``fires{1}``, ``reinit{1}.value``."""
+    return f"{kind.value}{{{index + 1}}}{part and '.'}{part}"
+
+
 def der(name: str) -> str:
-    """Name of the time derivative of ``name``, as FMI's structured naming convention writes it: ``der(x)``, of that
-    ``der(x,2)``."""
+    """Name of the time derivative of ``name``."""
     base, order = derivative_of(name)
-    return f"der({base},{order + 1})" if order else f"der({name})"
+    return derivative(base, order + 1)
+
+
+def derivative(name: str, order: int) -> str:
+    """Name of a derivative as FMI's structured naming convention writes it: ``der(x)``, ``der(x,2)``."""
+    return f"der({name},{order})" if order > 1 else f"der({name})" if order else name
 
 
 def derivative_of(name: str) -> tuple[str, int]:
@@ -40,14 +80,39 @@ def pre(name: str) -> str:
     return f"pre({name})"
 
 
-def relation_name(index: int) -> str:
-    """Name of the variable that is the residual of relation ``index``."""
-    return f"relation[{index + 1}]"
+def guess_name(name: str) -> str:
+    """Name of where the search for ``name`` starts."""
+    return f"guess({name})"
+
+
+def partial_name(name: str, by: str) -> str:
+    """Name of a partial derivative."""
+    return f"d({name})/d({by})"
+
+
+def shared_name(name: str, index: int) -> str:
+    """Name of number ``index``, from zero, of the parts of expressions that are variables; this one belongs to
+    ``name``."""
+    return f"{name}#{index + 1}"
+
+
+def residual_names(count: int, taken: Iterable[str]) -> list[str]:
+    """Names of the residuals of ``count`` relations, none of them ``taken``. Users see them: FMI 3 lists them as event
+    indicators, so they have the form of Modelica's."""
+    word, taken = "relation", tuple(taken)
+    while any(name.startswith(f"{word}[") for name in taken):
+        word += "_"
+    return [f"{word}[{i + 1}]" for i in range(count)]
 
 
 def holds(index: int) -> sympy.Symbol:
     """The truth value of relation ``index``, constant between events."""
-    return sympy.Symbol(f"holds[{index}]")
+    return sympy.Symbol(f"holds{{{index}}}")
+
+
+def relation_of(truth: sympy.Symbol) -> int | None:
+    """The index of the relation whose truth value it is; None if it is a variable."""
+    return int(truth.name.rpartition("{")[2][:-1]) if kind_of(truth.name) is Kind.HOLDS else None
 
 
 def is_true(name: str) -> sympy.Expr:
@@ -58,71 +123,3 @@ def is_true(name: str) -> sympy.Expr:
 def truth(condition: sympy.Expr) -> sympy.Expr:
     """1 where ``condition`` is true, else 0: what a Boolean variable is set to."""
     return sympy.Piecewise((sympy.Integer(1), condition), (sympy.Integer(0), True), evaluate=False)
-
-
-class power(sympy.Function):  # type: ignore[misc]
-    """``x^n`` with an exponent that is a parameter: arguments (x, n). SymPy's derivative, n x^n / x, fails at zero."""
-
-    nargs = 2
-    is_real = True
-
-    @classmethod
-    def eval(cls, base: sympy.Expr, exponent: sympy.Expr) -> sympy.Expr | None:
-        """SymPy's own, where the exponent is a number; one like 2.0 as an integer, which is printed as products."""
-        if not exponent.is_number:
-            return None
-        is_integer = exponent.is_Float and float(exponent).is_integer()
-        return base ** (sympy.Integer(int(exponent)) if is_integer else exponent)
-
-    def fdiff(self, argindex: int = 1) -> sympy.Expr:
-        """n x^(n - 1), or x^n log(x)"""
-        base, exponent = self.args
-        if argindex == 1:
-            return exponent * power(base, exponent - 1)
-        return no_number() if base.is_negative else self * sympy.log(base)
-
-
-class no_number(sympy.Function):  # type: ignore[misc]
-    """What there is where an array has no element: NaN. SymPy's own NaN refuses to be compared."""
-
-    nargs = 0
-    is_real = True
-    is_number = False
-
-
-class round_down(sympy.Function):  # type: ignore[misc]
-    """The largest integer not above its argument, whose derivative is 0 wherever it has one."""
-
-    nargs = 1
-    is_real = True
-
-    @classmethod
-    def eval(cls, argument: sympy.Expr) -> sympy.Expr | None:
-        """A number, of a number."""
-        return sympy.floor(argument) if argument.is_number else None
-
-    def fdiff(self, argindex: int = 1) -> sympy.Expr:
-        """0"""
-        return sympy.Integer(0)
-
-
-class reach_time(sympy.Function):  # type: ignore[misc]
-    """The time at which ``rest + slope*time`` reaches ``value``: arguments (value, rest, slope).
-
-    It is a function, and not the quotient, because SymPy would write that differently for different values, and so
-    round one and the same time differently.
-    """
-
-    nargs = 3
-    is_real = True
-
-
-class time_left(sympy.Function):  # type: ignore[misc]
-    """From now to an event: arguments (its time, now). Their difference, zero where that is rounding."""
-
-    nargs = 2
-    is_real = True
-
-    def fdiff(self, argindex: int = 1) -> sympy.Expr:
-        """1 or -1"""
-        return sympy.Integer(1 if argindex == 1 else -1)

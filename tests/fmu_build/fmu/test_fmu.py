@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
 
-from fmu_build import pipeline
+from fmu_build.fmu import binaries
 from fmu_build.pipeline import build
 
 PARAMETERS = (
@@ -92,7 +92,7 @@ def test_a_failed_build_leaves_the_old_file(
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(pipeline, "compile_library", interrupted)
+    monkeypatch.setattr(binaries, "compile_library", interrupted)
     with pytest.raises(KeyboardInterrupt):
         build(modelica_library, "OverrunHitch.Systems.CarTrailer", output)
     assert output.read_bytes() == b"old" and [f.name for f in tmp_path.iterdir()] == ["CarTrailer.fmu"]

@@ -12,12 +12,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fmu_build.ir.conditions import compare, insert
-from fmu_build.ir.symbols import symbol
+from fmu_build.ir.symbols import holds, symbol
 from tests.fmu_build.cases import Case, check
 from tests.fmu_build.conftest import Build
 
 NAMES = ("a", "b", "c")
-TRUTHS = (sympy.Symbol("holds[0]"), sympy.Symbol("holds[1]"))
+TRUTHS = (holds(0), holds(1))
 OPERATIONS = {sympy.Lt: operator.lt, sympy.Le: operator.le, sympy.Gt: operator.gt, sympy.Eq: operator.eq}
 
 numbers = st.integers(-3, 3).map(sympy.Integer)

@@ -199,4 +199,4 @@ def test_types_in_the_description(built: Build) -> None:
         assert variables["kind"].declaredType.name == "Kind"
         assert [item.name for item in variables["kind"].declaredType.items] == ["none", "small", "large"]
         assert (variables["sum"].variability, variables["x"].variability) == ("discrete", "continuous")
-        assert not {"when[1]", "pre(rises)", "fires[1]"} & variables.keys()
+        assert not {"when{1}", "pre(rises)", "fires{1}"} & variables.keys()
