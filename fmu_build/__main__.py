@@ -1,4 +1,7 @@
-"""Command line: ``python -m fmu_build MODELICA CLASS -o OUT.fmu``. Exit status: 0, 2 bad input, 130 interrupted."""
+"""Command line: ``python -m fmu_build MODELICA CLASS``, with ``-o OUT.fmu`` or ``--show STAGE``.
+
+Exit status: 0, 2 bad input, 130 interrupted.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -18,7 +21,11 @@ app = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_mar
 def build_fmu(
     modelica: Annotated[Path, typer.Argument(help="A Modelica file, or a library's folder.", metavar="MODELICA")],
     class_name: Annotated[str, typer.Argument(help="The class to build, with its full name.", metavar="CLASS")],
-    output: Annotated[Path, typer.Option("--output", "-o", help="The FMU to write.", metavar="OUT.fmu")],
+    output: Annotated[Path | None, typer.Option("--output", "-o", help="The FMU to write.", metavar="OUT.fmu")] = None,
+    stage: Annotated[
+        Literal["flat", "sorted", "jacobian", "c"] | None,
+        typer.Option("--show", help="Print what this stage makes of the class, in place of an FMU.", metavar="STAGE"),
+    ] = None,
     fmi: Annotated[int, typer.Option(help="Version of the standard.", min=2, max=3)] = 2,
     platforms: Annotated[
         str, typer.Option(help="host, all, or names with commas between them.", metavar="host|all|NAME,NAME")
@@ -26,8 +33,14 @@ def build_fmu(
     verbose: Annotated[bool, typer.Option("--verbose", help="Show each stage and its time.")] = False,
 ) -> None:
     """Build an FMU from Modelica, for this machine or for others."""
-    from .pipeline import build
+    from .errors import BuildError
+    from .pipeline import build, show
 
+    if stage is not None and output is None:
+        typer.echo(show(modelica, class_name, stage), nl=False)
+        return
+    if output is None or stage is not None:
+        raise BuildError("name either the FMU to write (-o OUT.fmu) or a stage to look at (--show STAGE)")
     names = [name.strip() for name in platforms.split(",") if name.strip()]
     with _progress(shown=names != ["host"], verbose=verbose) as progress:
         build(modelica, class_name, output, fmi, names, progress)

@@ -1,8 +1,26 @@
-"""Modelica to FMU: every stage in order, and nothing else."""
+"""Modelica to FMU: every stage in order, and nothing else.
+
+    flatten            Modelica text -> FlatModel: scalar variables, residuals, relations, when-clauses
+    lower              FlatModel -> FlatModel: when-clauses and algorithms have become assignments
+    derive             FlatModel -> EquationSystem: aliases gone, states chosen
+    initialize         EquationSystem -> EquationSystem: as many equations at the start as unknowns there
+    sort               EquationSystem -> SortedModel: assignments and loops in the order of computation
+    differentiate      SortedModel -> JacobianModel: exact partial derivatives
+    eliminate          places of the Jacobian's entries -> Elimination: order of pivots, pattern of the factors
+    declare            FlatModel, SortedModel -> Ports: coupling and terminals, if the class declares some
+    print_c            SortedModel, JacobianModel, Coupling -> CSources: variables.h, model.c
+    print_elimination  Elimination -> CSources: elimination.h, elimination.c
+    expose             SortedModel, Terminals -> Interface: variables in their roles, dependencies
+    simulate           Modelica text -> Simulation: another tool's results
+    contents           FlatModel, Interface, CSources, Simulations -> files: all of the FMU but its binaries
+    binaries           files -> files: a library for each platform
+    write_fmu          files -> the FMU
+
+The values in between are those of ``ir``.
+"""
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -14,15 +32,16 @@ from .equations.initialize import initialize
 from .equations.jacobian import differentiate
 from .equations.lower import lower
 from .equations.sort import sort
-from .fmu.archive import content_token, write_fmu
-from .fmu.compile import compile_library, named_platforms
-from .fmu.contents import SOURCES, contents
-from .fmu.fat_mach_o import universal
-from .fmu.interface import expose
+from .fmu.archive import write_fmu
+from .fmu.binaries import binaries
+from .fmu.compile import named_platforms
+from .fmu.contents import contents
+from .fmu.interface import expose, model_identifier
 from .fmu.ports import declare
 from .frontend.flatten import flatten
 from .frontend.simulate import simulate
-from .ir.models import TOKEN_PLACEHOLDER, CSources
+from .ir.models import CSources
+from .show import show_flat, show_jacobian, show_sorted
 
 
 def build(
@@ -39,41 +58,41 @@ def build(
     Raises BuildError; then nothing is written.
     """
     chosen = named_platforms(platforms)
-    identifier = class_name.rpartition(".")[2]
+    identifier = model_identifier(class_name)
     progress("reading Modelica")
-    flat = flatten(modelica, class_name)  # FlatModel: one class, flattened
+    flat = flatten(modelica, class_name)
     progress("sorting equations")
-    plain = lower(flat)  # FlatModel: when-clauses and algorithms have become assignments
-    system = derive(plain)  # EquationSystem: equations, states, relations, parameters
-    system = initialize(system)  # EquationSystem: with as many equations at the start as unknowns
-    model = sort(system)  # SortedModel: assignments in the order of computation
+    model = sort(initialize(derive(lower(flat))))
     progress("differentiating")
-    jacobian = differentiate(model)  # JacobianModel: exact partial derivatives
-    elimination = eliminate(jacobian.entries, len(model.states))  # Elimination: pivots, pattern of the factors
+    jacobian = differentiate(model)
+    elimination = eliminate(jacobian.entries, len(model.states))
     progress("printing C")
-    ports = declare(flat, model)  # Ports: coupling and terminals, if the class declares some
-    equations = print_c(model, jacobian, identifier, ports.coupling)  # CSources: variables.h, model.c
-    algebra = print_elimination(elimination)  # CSources: elimination.h, elimination.c
+    ports = declare(flat, model)
+    equations = print_c(model, jacobian, identifier, ports.coupling)
+    algebra = print_elimination(elimination)
     generated = CSources(equations.files | algebra.files)
-    interface = expose(model, identifier, ports.terminals)  # Interface: variables in their roles, dependencies
-
     progress("describing")
-    simulations = [simulate(modelica, example) for example in flat.examples]  # Simulation: another tool's results
-    files = contents(flat, interface, generated, simulations, fmi)  # everything but the binaries
-    token = content_token(files).encode()
-    files = {name: content.replace(TOKEN_PLACEHOLDER.encode(), token) for name, content in files.items()}
-
-    libraries: dict[str, list[bytes]] = {}  # by place in the FMU; those for macOS may share one
-    with tempfile.TemporaryDirectory(prefix="fmu_build-") as work:
-        for name, content in files.items():
-            if name.startswith(SOURCES):
-                (Path(work) / name.removeprefix(SOURCES)).write_bytes(content)
-        for platform in chosen:
-            progress(f"compiling for {platform.name}")
-            library = Path(work) / f"{identifier}{platform.suffix}"
-            compile_library(Path(work), library, platform)
-            folder = platform.fmi2_folder if fmi == 2 else platform.fmi3_folder
-            libraries.setdefault(f"binaries/{folder}/{library.name}", []).append(library.read_bytes())
+    interface = expose(model, identifier, ports.terminals)
+    simulations = [simulate(modelica, example) for example in flat.examples]
+    files = contents(flat, interface, generated, simulations, fmi)
+    libraries = binaries(files, identifier, chosen, fmi, progress)
     progress("packing")
-    files |= {place: universal(same) for place, same in libraries.items()}
-    write_fmu(output, files)
+    write_fmu(output, files | libraries)
+
+
+def show(modelica: Path, class_name: str, stage: str) -> str:
+    """What a stage makes of ``class_name``, as text for a person: ``flat``, ``sorted``, ``jacobian`` or ``c``.
+
+    Raises BuildError where a stage on the way fails.
+    """
+    flat = flatten(modelica, class_name)
+    if stage == "flat":
+        return show_flat(flat)
+    model = sort(initialize(derive(lower(flat))))
+    if stage == "sorted":
+        return show_sorted(model)
+    jacobian = differentiate(model)
+    if stage == "jacobian":
+        return show_jacobian(model, jacobian)
+    coupling = declare(flat, model).coupling
+    return print_c(model, jacobian, model_identifier(class_name), coupling).files["model.c"]

@@ -1,9 +1,11 @@
-"""The walls of the house, beside those that `lint-imports` holds: doors, and no circles in Python or C."""
+"""The walls of the house, beside those that `lint-imports` holds: doors, no circles in Python or C, sizes."""
 
 from __future__ import annotations
 
+import ast
 import importlib
 import re
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import grimp
@@ -16,6 +18,7 @@ ROOT = Path(__file__).parents[1]
 RUNTIME = ROOT / "fmu_build" / "runtime"
 FLOORS = ("", "numerics", "instance", "fmi2", "fmi3")  # each sees those before it; the facades don't see each other
 PACKAGES = ("fmu_build", "overrun_hitch")
+LONGEST_FILE, LONGEST_FUNCTION = 400, 40  # lines
 
 
 def python_graph(package: str) -> nx.DiGraph:
@@ -99,3 +102,27 @@ def test_no_folder_hides_what_the_package_offers() -> None:
     """`overrun_hitch.sweep` is a function; a folder of that name would take its place once it is imported."""
     package = ROOT / "python" / "overrun_hitch"
     assert not {name for name in overrun_hitch.__all__ if (package / name).exists()}
+
+
+def test_no_file_is_too_long() -> None:
+    files = [file for folder in ("fmu_build", "python", "tests") for file in (ROOT / folder).rglob("*.*")]
+    sources = [file for file in files if file.suffix in {".py", ".c", ".h"}]
+    lengths = {str(file.relative_to(ROOT)): file.read_text(encoding="utf-8").count("\n") for file in sources}
+    assert len(lengths) > 200 and {name: n for name, n in lengths.items() if n > LONGEST_FILE} == {}
+
+
+def long_functions(files: Iterable[Path]) -> Iterator[str]:
+    """Functions by the lines of their bodies, docstring included: a signature is a table of what goes in."""
+    for file in files:
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+                length = (node.end_lineno or 0) - node.body[0].lineno + 1
+                if length > LONGEST_FUNCTION:
+                    yield f"{file.name}: {node.name}: {length} lines"
+
+
+def test_no_function_is_too_long(tmp_path: Path) -> None:
+    assert list(long_functions((ROOT / "fmu_build").rglob("*.py"))) == []
+    long = tmp_path / "long.py"
+    long.write_text("def f() -> None:\n" + "    pass\n" * (LONGEST_FUNCTION + 1), encoding="utf-8")
+    assert len(list(long_functions([long]))) == 1

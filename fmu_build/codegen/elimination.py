@@ -75,7 +75,7 @@ def _body(lines: list[str]) -> str:
 
 
 def _factorize(elimination: Elimination, rows: _Rows) -> list[str]:
-    """What factorize() in runtime/lu.c does, in the same order."""
+    """What factorize() in runtime/numerics/lu.c does, in the same order."""
     pattern = elimination.pattern
     entries = {p: f"jacobian[{e}]" for e, p in enumerate(rows.jacobian)}
     lines = []
@@ -96,7 +96,7 @@ def _factorize(elimination: Elimination, rows: _Rows) -> list[str]:
 
 
 def _solve(elimination: Elimination, rows: _Rows) -> list[str]:
-    """What solve() in runtime/lu.c does, in the same order."""
+    """What solve() in runtime/numerics/lu.c does, in the same order."""
     pattern, order = elimination.pattern, elimination.order
     lines = []
     for i, lower in enumerate(rows.lower):
@@ -110,7 +110,7 @@ def _solve(elimination: Elimination, rows: _Rows) -> list[str]:
 
 
 def _subtract_product(elimination: Elimination) -> list[str]:
-    """What subtract_product() in runtime/lu.c does, in the same order."""
+    """What subtract_product() in runtime/numerics/lu.c does, in the same order."""
     lines = [f"b[{i}] -= shift * x[{i}];" for i in range(len(elimination.order))]
     lines += [f"b[{i}] += jacobian[{e}] * x[{j}];" for e, (i, j) in enumerate(elimination.jacobian)]
     return [

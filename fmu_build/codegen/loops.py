@@ -1,4 +1,4 @@
-"""Algebraic loops as C: what runtime/loops.h needs to know of each, and the lines that call it."""
+"""Algebraic loops as C: what runtime/numerics/loops.h needs to know of each, and the lines that call it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pieces of C: names, expressions, assignments, functions."""
+"""Pieces of C: names, expressions, assignments, functions, comments."""
 
 from __future__ import annotations
 

@@ -1,10 +1,5 @@
-"""A FlatModel to an EquationSystem: bindings become equations, aliases go, states are chosen.
-
-A variable that is differentiated is a state, unless an equation ties it to other states alone, as
-``compression = x_t - x_c`` does. Then one of them, that with the least stateSelect, is computed from the others, and
-one more derivative follows from the total time derivative of that equation. A fixed start value of the one that is
-computed is passed on to one whose start value is free.
-"""
+"""A FlatModel to an EquationSystem: bindings become equations, aliases go, states are chosen (states.py), constraints
+among them differentiated (index_reduction.py)."""
 
 from __future__ import annotations
 
@@ -25,7 +20,7 @@ from .states import choose_states, symbols_of
 
 
 def derive(model: FlatModel) -> EquationSystem:
-    """The equation system of ``model``; BuildError where it is not balanced or needs index reduction."""
+    """The equation system of ``model``; BuildError where it is not balanced or index reduction fails."""
     equations = (*model.equations, *_bindings(model))
     aliases = find_aliases(equations, {v.name: v for v in model.variables})
     model = replace(model, variables=with_starts_of_aliases(model.variables, aliases))

@@ -1,4 +1,4 @@
-"""Algebraic loops: equations that determine their unknowns together, and derivatives through them.
+"""Algebraic loops: equations that determine their unknowns together.
 
 A nonlinear loop is torn: as many unknowns as a greedy choice finds are computed one after the other from the rest, the
 iterated ones, so that only these need a good guess. The matrix of Newton's method is that of the whole loop; as the

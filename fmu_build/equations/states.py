@@ -1,4 +1,10 @@
-"""Which differentiated variables are states, and which follow from those by an equation among them alone."""
+"""Which differentiated variables are states, and which follow from those by an equation among them alone.
+
+A variable that is differentiated is a state, unless an equation ties it to other states alone, as
+``compression = x_t - x_c`` does. Then one of them, that with the least stateSelect, is computed from the others, and
+one more derivative follows from the total time derivative of that equation. A fixed start value of the one that is
+computed is passed on to one whose start value is free. (index_reduction.py finds what several equations hide together.)
+"""
 
 from __future__ import annotations
 

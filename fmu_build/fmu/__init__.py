@@ -1,3 +1,3 @@
 """Describes, compiles and packs the FMU."""
 
-__all__ = ["archive", "compile", "contents", "fat_mach_o", "interface", "ports"]
+__all__ = ["archive", "binaries", "compile", "contents", "interface", "ports"]

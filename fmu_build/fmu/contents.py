@@ -1,4 +1,5 @@
-"""Everything in an FMU but the binaries: path in the archive to content. Only this differs between FMI 2 and 3."""
+"""Everything in an FMU but the binaries: path in the archive to content. With the binaries' folders this is what
+differs between FMI 2 and 3."""
 
 from __future__ import annotations
 
@@ -7,6 +8,7 @@ from pathlib import Path
 
 from ..ir.models import TOKEN_PLACEHOLDER, CSources, FlatModel, Simulation
 from . import xml_fmi2, xml_fmi3
+from .archive import content_token
 from .compile import RUNTIME
 from .documentation import document
 from .icon import draw_icon
@@ -21,7 +23,7 @@ SOURCES = "sources/"
 def contents(
     flat: FlatModel, interface: Interface, generated: CSources, references: Sequence[Simulation], fmi: int
 ) -> dict[str, bytes]:
-    """The files of an FMI 2 or FMI 3 unit, with the placeholder where its token will stand."""
+    """The files of an FMI 2 or FMI 3 unit, with the hash of them all as its token."""
     sources = {file.name: file.read_bytes() for file in _hand_written(fmi)}
     sources |= {name: text.encode() for name, text in generated.files.items()}
     compiled = sorted(name for name in sources if name.endswith(".c"))
@@ -42,7 +44,9 @@ def contents(
     files["documentation/index.html"] = page
     files |= licence_files(flat.claims, flat.name)
     files[picture] = icon
-    return files | evidence
+    files |= evidence
+    token = content_token(files).encode()
+    return {name: content.replace(TOKEN_PLACEHOLDER.encode(), token) for name, content in files.items()}
 
 
 def _hand_written(fmi: int) -> list[Path]:

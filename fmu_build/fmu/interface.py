@@ -5,6 +5,7 @@ The same for every version of FMI; the xml_fmi*.py modules only print it.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -91,6 +92,14 @@ class Interface:
             unit: tuple(sorted({displayed_in(v) for v in variables if v.unit == unit} - {""}))
             for unit in sorted({v.unit for v in variables if v.unit})
         }
+
+
+def model_identifier(class_name: str) -> str:
+    """The name of the unit's library and prefix of its functions, which FMI wants to be one of C: the class's own, with
+    an underscore for what C does not know. ``Systems.Car`` gives ``Car``, ``P.'my car'`` gives ``my_car``."""
+    *_, last = re.findall(r"'(?:\\.|[^'\\])*'|[^.']+", class_name)
+    name = re.sub(r"\W+", "_", last, flags=re.ASCII).strip("_")
+    return name if name[:1].isalpha() else f"M_{name}"
 
 
 def displayed_in(variable: Variable) -> str:

@@ -5,8 +5,8 @@
         mean="F_mean", hold="F_hold", applied="applied_force", energy="coupling_energy"),
       terminal(name="hitch", signal(v="v"), outflow(F="F_hold"))))
 
-What a coupling does is told in runtime/coupling.h, what its variables are in runtime/model.h. A terminal is one of
-FMI 3: member names with variables, by the kind of the member.
+What a coupling does is told in runtime/instance/coupling.h, what its variables are in runtime/model.h. A terminal is
+one of FMI 3: member names with variables, by the kind of the member.
 """
 
 from __future__ import annotations

@@ -68,7 +68,7 @@ def _package_text(name: str, texts: Iterable[str]) -> str:
 
 
 def read_couplings(text: str) -> tuple[str, ...]:
-    """The arguments of each ``coupling(...)`` in ``__fmu_build``; what they mean is told in ports.py."""
+    """The arguments of each ``coupling(...)`` in ``__fmu_build``; what they mean is told in fmu/ports.py."""
     return tuple(_all_arguments("coupling", _arguments("__fmu_build", text)))
 
 

@@ -1,6 +1,7 @@
 """Modelica's built-in functions of scalars and arrays, as far as they are expressions of their arguments.
 
-Those with a relation inside (abs, min, floor, ...) are in expressions.py, which knows where events are.
+Those with a relation inside are elsewhere: abs, min and their like in choices.py, floor, mod and theirs in
+event_expressions.py.
 """
 
 from __future__ import annotations

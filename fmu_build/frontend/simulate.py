@@ -11,10 +11,7 @@ from numpy.typing import NDArray
 
 from ..errors import BuildError
 from ..ir.models import Simulation
-from .annotations import (
-    class_text,
-    read_experiment,
-)
+from .annotations import class_text, read_experiment
 from .loading import load
 
 REFERENCE_TOLERANCES = (1e-9, 1e-11)  # relative; the difference between the two tells the accuracy

@@ -1,4 +1,4 @@
-"""The values that pass between the stages. All are frozen; expressions are SymPy's, with the names of symbols.py."""
+"""The values that pass between the stages. All are frozen; expressions are SymPy's, with the names of ir/symbols.py."""
 
 from __future__ import annotations
 

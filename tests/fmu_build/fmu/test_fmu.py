@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
 
-from fmu_build import pipeline
+from fmu_build.fmu import binaries
+from fmu_build.fmu.interface import model_identifier
 from fmu_build.pipeline import build
 
 PARAMETERS = (
@@ -92,7 +93,7 @@ def test_a_failed_build_leaves_the_old_file(
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(pipeline, "compile_library", interrupted)
+    monkeypatch.setattr(binaries, "compile_library", interrupted)
     with pytest.raises(KeyboardInterrupt):
         build(modelica_library, "OverrunHitch.Systems.CarTrailer", output)
     assert output.read_bytes() == b"old" and [f.name for f in tmp_path.iterdir()] == ["CarTrailer.fmu"]
@@ -139,3 +140,18 @@ def test_protected_parameters_and_states_do_not_disturb(tmp_path: Path) -> None:
     assert names == ["time", "a", "b", "y", "x", "der(x)"]
     result = fmpy.simulate_fmu(str(output), stop_time=1, output_interval=0.1, start_values={"a": 1.0})
     np.testing.assert_allclose(result["y"], 2 * np.exp(-4 * result["time"]), rtol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("class_name", "identifier"),
+    [
+        ("A.Car", "Car"),
+        ("Car", "Car"),
+        ("P.'my car'", "my_car"),
+        ("P.'a.b'", "a_b"),
+        ("'1a'", "M_1a"),
+        ("P.'*/'", "M_"),
+    ],
+)
+def test_the_model_identifier_is_one_of_c(class_name: str, identifier: str) -> None:
+    assert model_identifier(class_name) == identifier
