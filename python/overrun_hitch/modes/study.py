@@ -20,8 +20,6 @@ from overrun_hitch.theory.steady import steady
 MOST = 10_000  # combinations of C and V: about a second
 HARD = 5.0  # m/s2, the deceleration for which the paper's figure 3 gives deflections
 ROUNDING = 1e-12  # of the greatest entry of the matrix: below it an eigenvalue is noise
-# What the linear theory takes from Parameters; C and V_0 stand in the rows, the rest counts in simulations alone.
-TAKEN = ("M_c", "M_t", "I_c", "I_t", "R_c", "R_t", "C_kc", "C_kt", "k", "r", "eps")
 
 
 class Speed(Quantities):
@@ -118,7 +116,8 @@ def _row(damped: Parameters, V: float) -> Row:
 
 def document(result: Stability, files: Sequence[Path] = ()) -> dict[str, Any]:
     """Everything with units, ready for json.dumps; `files` are those written beside."""
-    used = {name: getattr(result.parameters, name) for name in TAKEN}
+    taken = [name for name in Parameters.having("theory", "exact") if name != "C"]  # which stands in the rows
+    used = {name: getattr(result.parameters, name) for name in taken}
     return {
         "name": result.name,
         "parameters": {name: {"value": value, "unit": Parameters.unit(name)} for name, value in used.items()},
