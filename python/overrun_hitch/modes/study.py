@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
@@ -12,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from overrun_hitch.parameters import HitchError, Parameters, Quantities, quantity
-from overrun_hitch.results import write_atomically
 from overrun_hitch.theory.boundary import critical_damping
 from overrun_hitch.theory.linear import compression_matrix, shunting_mode
 from overrun_hitch.theory.steady import steady
@@ -129,17 +127,12 @@ def document(result: Stability, files: Sequence[Path] = ()) -> dict[str, Any]:
     }
 
 
-def write_csv(result: Stability, path: Path) -> None:
-    """Write the rows with units in the header ("V [m/s],C [N.s/m],..."), every digit kept, self_excited as 1 or 0."""
-    names = [field.name for field in fields(Row)]
-
-    def write(temporary: Path) -> None:
-        with temporary.open("w", encoding="utf-8", newline="") as file:
-            table = csv.writer(file, lineterminator="\n")
-            table.writerow([f"{name} [{UNITS[name]}]" for name in names])
-            for row in result.rows:
-                table.writerow(
-                    [repr(value) if isinstance(value, float) else int(value) for value in asdict(row).values()]
-                )
-
-    write_atomically(path, write)
+def csv_columns(result: Stability) -> dict[str, list[Any]]:
+    """The rows by names with units ("V [m/s]", "C [N.s/m]", ...), self_excited as 1 or 0."""
+    columns = {
+        f"{field.name} [{UNITS[field.name]}]": [getattr(row, field.name) for row in result.rows]
+        for field in fields(Row)
+    }
+    return {
+        name: [int(value) if isinstance(value, bool) else value for value in values] for name, values in columns.items()
+    }
