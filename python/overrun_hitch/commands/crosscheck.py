@@ -50,10 +50,10 @@ def crosscheck(
                 contents[output / f"{file_stem(scenario.name)}.{kind}"] = traces.rendered(picture, kind)
     document = output / "crosscheck.json"
     paths = [*contents, document]
-    text = crosscheck_table.document(checks, fmus, settings, allowed, paths)
-    files.write({**contents, document: text.encode()})
+    text = files.json_text(crosscheck_table.document(checks, fmus, settings, allowed, paths))
+    files.write({**contents, document: f"{text}\n".encode()})
     if json:
-        print(text, end="")
+        print(text)
     else:
         crosscheck_table.show(checks, fmus, allowed, paths)
     return 1 if any(comparison.differing for check in checks for comparison in check.comparisons) else 0

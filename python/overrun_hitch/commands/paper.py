@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json as json_format
 from pathlib import Path
 from typing import Annotated
 
@@ -39,8 +38,7 @@ def paper(
         }
     paths = files.write(contents)
     if json:
-        document = claims_table.document(computed, claims, paths)
-        print(json_format.dumps(document, indent=2, allow_nan=False, ensure_ascii=False))
+        print(files.json_text(claims_table.document(computed, claims, paths)))
     else:
         claims_table.show(claims, paths)
     return 0 if all(claim.verdict == "holds" for claim in claims) else 1

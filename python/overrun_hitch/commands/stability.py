@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json as json_format
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
@@ -58,7 +57,7 @@ def stability(
         files.write_csv(paths[0], csv_columns(result))
         traces.save(figure, stem)
     if json:
-        print(json_format.dumps(document(result, paths), indent=2, allow_nan=False))
+        print(files.json_text(document(result, paths)))
     else:
         stability_table.show(result, paths)
     return 0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Sequence
 from dataclasses import asdict
@@ -56,10 +55,10 @@ def show(checks: Sequence[Crosscheck], fmus: Sequence[Path], allowed: Allowed, p
 
 def document(
     checks: Sequence[Crosscheck], fmus: Sequence[Path], settings: Settings, allowed: Allowed, paths: Sequence[Path]
-) -> str:
-    """Every number and verdict as JSON, SI units, null for what is not finite. Its keys: docs/openmodelica.md."""
+) -> dict[str, Any]:
+    """Every number and verdict for JSON, SI units. Its keys: docs/openmodelica.md."""
     guids = [run.attrs["guid"] for run in checks[0].runs]
-    content = {
+    return {
         "agrees": not any(comparison.differing for check in checks for comparison in check.comparisons),
         "fmus": [
             {"label": label, "path": str(fmu), "guid": guid}
@@ -78,7 +77,6 @@ def document(
         ],
         "files": [str(path) for path in paths],
     }
-    return json.dumps(_finite(content), indent=2, allow_nan=False) + "\n"
 
 
 def _comparison(comparison: Comparison) -> dict[str, Any]:
@@ -95,15 +93,6 @@ def _comparison(comparison: Comparison) -> dict[str, Any]:
         "numbers": [pair(judged) for judged in comparison.numbers],
         "passages": [pair(judged) for judged in comparison.passages],
     }
-
-
-def _finite(content: Any) -> Any:
-    """JSON knows neither NaN nor infinity."""
-    if isinstance(content, dict):
-        return {name: _finite(value) for name, value in content.items()}
-    if isinstance(content, list):
-        return [_finite(value) for value in content]
-    return None if isinstance(content, float) and not math.isfinite(content) else content
 
 
 def _show_figure(out: Console, check: Crosscheck) -> None:

@@ -22,6 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
+from scipy.integrate import cumulative_trapezoid
 
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.measure.oscillation import NoOscillation, Oscillation, measure
@@ -66,7 +67,7 @@ class _Run:
         """How many samples pass until theory has the oscillation fall by exp(-measure)."""
         if self.mode is None:
             return len(self.time)
-        exponent = _integral(self.time, self.mode.growth_rate)
+        exponent = cumulative_trapezoid(self.mode.growth_rate, self.time, initial=0.0)
         return int(np.searchsorted(-np.minimum.accumulate(exponent), measure))
 
 
@@ -184,13 +185,7 @@ def _mean_acceleration(result: xr.Dataset, start: float) -> float:
     return float((speed[-1] - speed[first]) / (time[-1] - time[first]))
 
 
-def _integral(time: Floats, samples: Floats) -> Floats:
-    """Integral (n,) from the first sample on, by the trapezoidal rule."""
-    pieces = 0.5 * (samples[1:] + samples[:-1]) * np.diff(time)
-    return np.concatenate([[0.0], np.cumsum(pieces)])
-
-
 def _mean(time: Floats, samples: Floats) -> float:
     if len(time) < 2:
         return float(samples[0]) if len(samples) else math.nan
-    return float(_integral(time, samples)[-1] / (time[-1] - time[0]))
+    return float(cumulative_trapezoid(samples, time)[-1] / (time[-1] - time[0]))

@@ -113,7 +113,7 @@ def _row(damped: Parameters, V: float) -> Row:
 
 
 def document(result: Stability, files: Sequence[Path] = ()) -> dict[str, Any]:
-    """Everything with units, ready for json.dumps; `files` are those written beside."""
+    """Everything with units, for JSON; `files` are those written beside."""
     taken = [name for name in Parameters.having("theory", "exact") if name != "C"]  # which stands in the rows
     used = {name: getattr(result.parameters, name) for name in taken}
     return {

@@ -1,12 +1,15 @@
-"""Files: each is written whole, or what was there stays."""
+"""Files: each is written whole, or what was there stays. CSV and JSON."""
 
 from __future__ import annotations
 
+import json
+import math
 import os
 import tempfile
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
@@ -26,6 +29,11 @@ def write_csv(path: Path, columns: Mapping[str, Iterable[object]]) -> None:
     write_atomically(path, partial(frame.to_csv, index=False, na_rep="nan", lineterminator="\n", encoding="utf-8"))
 
 
+def json_text(document: Any) -> str:
+    """A document of dictionaries, lists, text and numbers as JSON, null for what is not finite."""
+    return json.dumps(_finite(document), indent=2, allow_nan=False)
+
+
 def write_atomically(path: Path, fill: Callable[[Path], object]) -> None:
     """Let `fill` fill a temporary file and give it its name only when it is whole. HitchError if that cannot be."""
     temporary: Path | None = None
@@ -42,6 +50,15 @@ def write_atomically(path: Path, fill: Callable[[Path], object]) -> None:
     finally:
         if temporary is not None:
             temporary.unlink(missing_ok=True)
+
+
+def _finite(content: Any) -> Any:
+    """JSON knows neither NaN nor infinity."""
+    if isinstance(content, dict):
+        return {name: _finite(value) for name, value in content.items()}
+    if isinstance(content, list):
+        return [_finite(value) for value in content]
+    return None if isinstance(content, float) and not math.isfinite(content) else content
 
 
 def _fill(content: bytes, path: Path) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import io
+import json
+import math
 import os
 import stat
 import tempfile
@@ -14,7 +16,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from overrun_hitch.parameters import HitchError
-from overrun_hitch.show.files import write, write_atomically, write_csv
+from overrun_hitch.show.files import json_text, write, write_atomically, write_csv
 
 NUMBERS = st.lists(st.tuples(st.floats(), st.floats(width=32), st.integers(0, 1), st.sampled_from(["jacobi", "a, b"])))
 
@@ -37,6 +39,12 @@ def test_csv_keeps_every_digit(rows: list[tuple[object, ...]]) -> None:
         write_csv(path, {name: [row[place] for row in rows] for place, name in enumerate(names)})
         assert path.read_bytes() == by_hand(rows, names)
         assert list(path.parent.iterdir()) == [path]
+
+
+def test_json_has_null_for_what_is_not_finite() -> None:
+    text = json_text({"a": [math.nan, -math.inf, 0.1], "b": {"c": True, "d": "±"}})
+    assert json.loads(text) == {"a": [None, None, 0.1], "b": {"c": True, "d": "±"}}
+    assert text.isascii()
 
 
 def test_files_that_everybody_may_read(tmp_path: Path) -> None:

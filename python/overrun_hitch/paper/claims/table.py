@@ -44,7 +44,7 @@ def summary(claims: Sequence[Claim]) -> str:
 
 
 def document(study: Study, claims: Sequence[Claim], paths: Sequence[Path]) -> dict[str, Any]:
-    """All claims with parts and verdicts for JSON: null where a side has no number or no verdict."""
+    """All claims with parts and verdicts for JSON: no number, NaN, or no verdict, None, where a side has none."""
     return {
         "fmu": study.fmu,
         "guid": study.guid,
@@ -68,17 +68,12 @@ def _claim(claim: Claim) -> dict[str, Any]:
                 "unit": part.unit,
                 "printed": part.printed,
                 "criterion": part.criterion.words,
-                **{side: _finite(getattr(part, side)) for side in SIDES},
+                **{side: getattr(part, side) for side in SIDES},
                 "holds": {side: part.holds(side) for side in SIDES},
             }
             for part in claim.parts
         ],
     }
-
-
-def _finite(value: float) -> float | None:
-    """JSON knows neither NaN nor infinity."""
-    return value if math.isfinite(value) else None
 
 
 def _show_claim(out: Console, claim: Claim) -> None:
