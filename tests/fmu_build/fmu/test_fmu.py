@@ -26,8 +26,7 @@ def test_the_names_that_users_see(car_trailer_fmu: Path) -> None:
     """Those of the parameters: tests/test_parameters.py."""
     description = fmpy.read_model_description(str(car_trailer_fmu))
     by_causality = {
-        kind: [v.name for v in description.modelVariables if v.causality == kind]
-        for kind in ("input", "output")
+        kind: [v.name for v in description.modelVariables if v.causality == kind] for kind in ("input", "output")
     }
     assert by_causality == {"input": ["brake_torque", "grade"], "output": OUTPUTS}
     assert all(len(v.name) <= 55 for v in description.modelVariables)
