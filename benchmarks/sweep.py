@@ -26,7 +26,8 @@ from overrun_hitch.fmu.opening import opened_unit
 from overrun_hitch.measure.metrics import NEEDED, Traces, measured
 from overrun_hitch.results import VARIABLES
 from overrun_hitch.sweeps.engine import run_plan
-from overrun_hitch.sweeps.plan import Plan, planned
+from overrun_hitch.sweeps.plan import Plan
+from overrun_hitch.sweeps.planner import planned
 from overrun_hitch.sweeps.spec import SweepSpec
 
 RANGES = {"C": {"min": 100.0, "max": 1000.0}, "V_0": {"min": 20.0, "max": 40.0}, "M_t": {"min": 300.0, "max": 700.0}}

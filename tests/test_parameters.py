@@ -1,7 +1,8 @@
-"""Every parameter of CarTrailer.fmu: default, range and effect, before and during a run."""
+"""Every parameter of CarTrailer.fmu: default, range and effect, before and during a run, and what the docs say."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from tests.unit import Unit
 
 NAMES = list(Parameters.model_fields)
 FIXED = {"V_0", "compression_start"}
+ROOT = Path(__file__).parents[1]
 
 
 def rerun(unit: Unit, values: Mapping[str, float]) -> None:
@@ -43,22 +45,16 @@ LIVELY = {
     "brake_torque": 1000.0, "C": 20.0, "eps": 0.01,
     "F_0": 100.0, "x_2": 0.01, "k_2": 8000.0, "x_3": 0.02, "k_3": 12e3, "travel": 0.035,
 }  # fmt: skip
-CHANGED = {
-    "eps": 0.02,
-    "compression_start": 0.005,
-    "F_pull_max": 0.0,
-    "mu": 0.3,
-    "sigma": 0.5,
-    "CdA_c": 0.7,
-    "CdA_t": 1.0,
-    "C_rr": 0.01,
-    "reverse_braking": 0.0,
-}
 BACKWARD = {"reverse_braking"}  # what matters there alone
+BEYOND_REACH = 1e8
 
 
 def changed(name: str) -> dict[str, float]:
-    return {name: CHANGED.get(name, 1.1 * LIVELY.get(name, getattr(DATUM, name)))}
+    """A tenth more; the least that is allowed where more is not, or changes nothing."""
+    value, (least, most) = LIVELY.get(name, getattr(DATUM, name)), Parameters.limits(name)
+    if value == 0.0:
+        return {name: 0.1}
+    return {name: 1.1 * value if 1.1 * value <= min(most, BEYOND_REACH) else least}
 
 
 def lively(name: str) -> dict[str, float]:
@@ -73,6 +69,26 @@ def test_defaults_and_minima_are_those_of_the_python_parameters(unit: Unit) -> N
             assert float(variable.start) == getattr(DATUM, variable.name)
             assert [float(variable.min)] == limits if variable.min is not None else limits == []
             assert variable.unit == Parameters.unit(variable.name)
+
+
+def test_names_in_the_order_in_which_they_are_declared(unit: Unit) -> None:
+    assert [v.name for v in unit.description.modelVariables if v.causality == "parameter"] == NAMES
+
+
+def test_the_readme_names_every_parameter_with_its_unit() -> None:
+    (row,) = re.findall(r"^\| parameters \| (.*) \|$", (ROOT / "README.md").read_text(encoding="utf-8"), re.MULTILINE)
+    told = [(name, unit) for names, unit in re.findall(r"`([^`]*)` \(([^)]*)\)", row) for name in names.split()]
+    assert told == [(name, Parameters.unit(name)) for name in NAMES]
+
+
+def test_units_and_defaults_in_the_docs() -> None:
+    text = (ROOT / "docs" / "parameters.md").read_text(encoding="utf-8")
+    rows = re.findall(
+        r"^\| (`.*?), [^|]* \| (\S+) \| ([^ ,|]+)[^|]* \|", text.partition("These are constants")[0], re.M
+    )
+    told = {name: (unit, float(default)) for names, unit, default in rows for name in re.findall(r"`(\w+)`", names)}
+    assert told.keys() >= {*Parameters.having("theory", "neutral")}
+    assert told == {name: (Parameters.unit(name), getattr(DATUM, name)) for name in told}
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -1,7 +1,8 @@
 """What a run is made of: Sharp's parameters, his nine cases and the step brakes of his figures.
 
 Every quantity is in SI units and carries its unit, its meaning and its lowest allowed value, so that tables, messages
-and files written elsewhere can take them from here. The lowest values are those of the FMU.
+and files written elsewhere can take them from here, and so whose it is and what linear theory makes of it. The lowest
+values are those of the FMU.
 
 R. S. Sharp, "Longitudinal Oscillations of Vehicle/Trailer Combinations Induced by Overrun Braking", Vehicle System
 Dynamics 11:1 (1982) 43-61, doi 10.1080/00423118208968687. Called "the paper" throughout the package.
@@ -12,9 +13,16 @@ from __future__ import annotations
 import difflib
 import math
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+# Whose a parameter is: of Car.fmu, of Trailer.fmu, of both, or of Trailer.fmu and making what passes between car and
+# trailer, so that with all of these at 0 the car runs as if alone.
+Owner = Literal["car", "trailer", "both", "link"]
+# What linear theory makes of it: it takes the value, it holds at the default alone, or the value counts only outside of
+# what it speaks of: out of compression, under a threshold, beyond another stiffness, backward, or at the start.
+InTheory = Literal["exact", "neutral", "outside"]
 
 
 class HitchError(ValueError):
@@ -37,6 +45,12 @@ class Quantities(BaseModel):
         """Unit of the quantity `name`, as the FMU writes it ("N.s/m")."""
         extra = cls.model_fields[name].json_schema_extra
         return str(extra["unit"]) if isinstance(extra, dict) else ""
+
+    @classmethod
+    def having(cls, role: Literal["of", "theory"], *values: Owner | InTheory) -> tuple[str, ...]:
+        """The quantities whose `role` is one of `values`, in the order in which they are declared."""
+        extras = {name: field.json_schema_extra for name, field in cls.model_fields.items()}
+        return tuple(name for name, extra in extras.items() if isinstance(extra, dict) and extra.get(role) in values)
 
     @classmethod
     def description(cls, name: str) -> str:
@@ -78,9 +92,15 @@ class Quantities(BaseModel):
         return f"{name} = {shown} is not allowed: {cls.description(name)} must be {cls.allowed(name)}"
 
 
-def quantity(default: Any, unit: str, description: str, **limits: float) -> Any:
-    """Declare a quantity: default (... if there is none), unit, meaning, limits as pydantic spells them (ge, le)."""
-    return Field(default, description=description, json_schema_extra={"unit": unit}, **limits)  # type: ignore[call-overload]
+def quantity(
+    default: Any, unit: str, description: str, of: Owner | None = None, theory: InTheory | None = None, **limits: float
+) -> Any:
+    """Declare a quantity: default (... if there is none), unit, meaning, limits as pydantic spells them (ge, le).
+
+    Each of Parameters also says whose it is and what linear theory makes of it.
+    """
+    extra = {"unit": unit, "of": of, "theory": theory}
+    return Field(default, description=description, json_schema_extra=extra, **limits)  # type: ignore[call-overload]
 
 
 def unknown(kind: str, name: str, names: Iterable[str]) -> str:
@@ -94,38 +114,46 @@ def unknown(kind: str, name: str, names: Iterable[str]) -> str:
 class Parameters(Quantities):
     """The car, the trailer, the drawbar and the start, in the paper's symbols. The defaults are figure 8."""
 
-    M_c: float = quantity(1000.0, "kg", "mass of the car", ge=1.0)
-    M_t: float = quantity(500.0, "kg", "mass of the trailer", ge=1.0)
-    I_c: float = quantity(5.0, "kg.m2", "lumped wheel inertia of the car", ge=0.001)
-    I_t: float = quantity(2.5, "kg.m2", "lumped wheel inertia of the trailer", ge=0.001)
-    R_c: float = quantity(0.35, "m", "wheel radius of the car", ge=0.01)
-    R_t: float = quantity(0.35, "m", "wheel radius of the trailer", ge=0.01)
-    C_kc: float = quantity(400e3, "N", "braking force per unit slip of the car", ge=1.0)
-    C_kt: float = quantity(200e3, "N", "braking force per unit slip of the trailer", ge=1.0)
-    k: float = quantity(5480.0, "N/m", "drawbar stiffness in compression", ge=0.0)
-    k_t: float = quantity(548e3, "N/m", "drawbar stiffness in tension", ge=0.0)
-    C: float = quantity(500.0, "N.s/m", "drawbar damper coefficient", ge=0.0)
-    r: float = quantity(2.975 * 5480.0, "N.m/m", "trailer brake torque per unit of drawbar compression", ge=0.0)
-    eps: float = quantity(0.0, "m", "drawbar clearance", ge=0.0)
-    F_pull_max: float = quantity(1e9, "N", "largest pull of the damper in a drawbar that is pushed in", ge=0.0)
-    rebound: float = quantity(1.0, "1", "damper coefficient while the drawbar springs back, over C", ge=0.0)
-    F_0: float = quantity(0.0, "N", "push up to which the drawbar gives by k_t alone", ge=0.0)
-    x_2: float = quantity(1e3, "m", "drawbar compression beyond the clearance from which its stiffness is k_2", ge=0.0)
-    k_2: float = quantity(5480.0, "N/m", "drawbar stiffness from x_2 on", ge=0.0)
-    x_3: float = quantity(1e3, "m", "drawbar compression beyond the clearance from which its stiffness is k_3", ge=0.0)
-    k_3: float = quantity(5480.0, "N/m", "drawbar stiffness from x_3 on", ge=0.0)
-    travel: float = quantity(1e3, "m", "drawbar compression at which it meets the buffer", ge=0.0)
-    k_buffer: float = quantity(548e3, "N/m", "drawbar stiffness from there on", ge=0.0)
-    mu: float = quantity(1e9, "1", "friction between tyres and road", ge=0.01)
-    sigma: float = quantity(0.0, "m", "relaxation length of the tyres", ge=0.0)
-    CdA_c: float = quantity(0.0, "m2", "drag area of the car", ge=0.0)
-    CdA_t: float = quantity(0.0, "m2", "drag area of the trailer", ge=0.0)
-    C_rr: float = quantity(0.0, "1", "rolling resistance over load", ge=0.0)
-    reverse_braking: float = quantity(
-        1.0, "1", "share of the trailer's brake torque that acts backward", ge=0.0, le=1.0
+    M_c: float = quantity(1000.0, "kg", "mass of the car", "car", "exact", ge=1.0)
+    M_t: float = quantity(500.0, "kg", "mass of the trailer", "trailer", "exact", ge=1.0)
+    I_c: float = quantity(5.0, "kg.m2", "lumped wheel inertia of the car", "car", "exact", ge=0.001)
+    I_t: float = quantity(2.5, "kg.m2", "lumped wheel inertia of the trailer", "trailer", "exact", ge=0.001)
+    R_c: float = quantity(0.35, "m", "wheel radius of the car", "car", "exact", ge=0.01)
+    R_t: float = quantity(0.35, "m", "wheel radius of the trailer", "trailer", "exact", ge=0.01)
+    C_kc: float = quantity(400e3, "N", "braking force per unit slip of the car", "car", "exact", ge=1.0)
+    C_kt: float = quantity(200e3, "N", "braking force per unit slip of the trailer", "trailer", "exact", ge=1.0)
+    k: float = quantity(5480.0, "N/m", "drawbar stiffness in compression", "link", "exact", ge=0.0)
+    k_t: float = quantity(548e3, "N/m", "drawbar stiffness in tension", "link", "outside", ge=0.0)
+    C: float = quantity(500.0, "N.s/m", "drawbar damper coefficient", "link", "exact", ge=0.0)
+    r: float = quantity(
+        2.975 * 5480.0, "N.m/m", "trailer brake torque per unit of drawbar compression", "link", "exact", ge=0.0
     )
-    V_0: float = quantity(40.0, "m/s", "speed at the start")
-    compression_start: float = quantity(0.0, "m", "drawbar compression at the start")
+    eps: float = quantity(0.0, "m", "drawbar clearance", "trailer", "exact", ge=0.0)
+    F_pull_max: float = quantity(
+        1e9, "N", "largest pull of the damper in a drawbar that is pushed in", "trailer", "neutral", ge=0.0
+    )
+    rebound: float = quantity(
+        1.0, "1", "damper coefficient while the drawbar springs back, over C", "trailer", "neutral", ge=0.0
+    )
+    F_0: float = quantity(0.0, "N", "push up to which the drawbar gives by k_t alone", "link", "outside", ge=0.0)
+    x_2: float = quantity(1e3, "m", "drawbar compression beyond the clearance from which its stiffness is k_2",
+                          "trailer", "outside", ge=0.0)  # fmt: skip
+    k_2: float = quantity(5480.0, "N/m", "drawbar stiffness from x_2 on", "link", "outside", ge=0.0)
+    x_3: float = quantity(1e3, "m", "drawbar compression beyond the clearance from which its stiffness is k_3",
+                          "trailer", "outside", ge=0.0)  # fmt: skip
+    k_3: float = quantity(5480.0, "N/m", "drawbar stiffness from x_3 on", "link", "outside", ge=0.0)
+    travel: float = quantity(1e3, "m", "drawbar compression at which it meets the buffer", "trailer", "outside", ge=0.0)
+    k_buffer: float = quantity(548e3, "N/m", "drawbar stiffness from there on", "link", "outside", ge=0.0)
+    mu: float = quantity(1e9, "1", "friction between tyres and road", "both", "neutral", ge=0.01)
+    sigma: float = quantity(0.0, "m", "relaxation length of the tyres", "both", "neutral", ge=0.0)
+    CdA_c: float = quantity(0.0, "m2", "drag area of the car", "car", "neutral", ge=0.0)
+    CdA_t: float = quantity(0.0, "m2", "drag area of the trailer", "trailer", "neutral", ge=0.0)
+    C_rr: float = quantity(0.0, "1", "rolling resistance over load", "both", "neutral", ge=0.0)
+    reverse_braking: float = quantity(
+        1.0, "1", "share of the trailer's brake torque that acts backward", "trailer", "outside", ge=0.0, le=1.0
+    )
+    V_0: float = quantity(40.0, "m/s", "speed at the start", "both", "outside")
+    compression_start: float = quantity(0.0, "m", "drawbar compression at the start", "trailer", "outside")
 
     @property
     def gives_from(self) -> float:

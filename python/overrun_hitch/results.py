@@ -1,12 +1,10 @@
-"""A run as a labelled table: variables over time with units, and the CSV file made of it."""
+"""A run as a labelled table: variables over time with units, and what a CSV file of it holds."""
 
 from __future__ import annotations
 
 import csv
-import os
 import re
-import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -76,46 +74,15 @@ def values(result: xr.Dataset, name: str) -> Floats:
     return np.asarray(result[name].values, dtype=np.float64)
 
 
-def write_atomically(path: Path, write: Callable[[Path], None]) -> None:
-    """Let `write` fill a temporary file and give it its name only when it is whole. HitchError if that cannot be."""
-    temporary: Path | None = None
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
-        os.close(handle)
-        temporary = Path(name)
-        write(temporary)
-        temporary.chmod(0o666 & ~_umask())  # mkstemp makes files that only their owner may read
-        temporary.replace(path)
-    except OSError as error:
-        raise HitchError(f"cannot write {path}: {error.strerror or error}") from None
-    finally:
-        if temporary is not None:
-            temporary.unlink(missing_ok=True)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
-
-
-def write_csv(result: xr.Dataset, path: Path) -> None:
-    """Write time and variables with units in the header ("time [s],v_car [m/s],..."), every digit kept."""
-    names = ["time", *(str(name) for name in result.data_vars)]
-    rows = np.column_stack([values(result, name) for name in names])
-
-    def write(temporary: Path) -> None:
-        with temporary.open("w", encoding="utf-8", newline="") as file:
-            table = csv.writer(file, lineterminator="\n")
-            table.writerow([f"{name} [{result[name].attrs['units']}]" for name in names])
-            table.writerows([repr(float(value)) for value in row] for row in rows)
-
-    write_atomically(path, write)
+def columns(result: xr.Dataset) -> dict[str, Floats]:
+    """Time and variables (n,) by their names with units, "time [s]": the columns of a CSV file."""
+    return {
+        f"{name} [{result[name].attrs['units']}]": values(result, str(name)) for name in ("time", *result.data_vars)
+    }
 
 
 def read_csv(path: Path) -> xr.Dataset:
-    """Read what `write_csv` wrote; attributes of the run are not in the file. HitchError for anything else."""
+    """Read a file of `columns`; attributes of the run are not in it. HitchError for anything else."""
     try:
         with path.open(encoding="utf-8", newline="") as file:
             header, *rows = list(csv.reader(file))
@@ -132,5 +99,5 @@ def read_csv(path: Path) -> xr.Dataset:
         raise HitchError(
             f"{path} has no usable column {wrong!r}; needed: {', '.join(f'{n} [{u}]' for n, u in wanted.items())}"
         )
-    columns = dict(zip(units, table.T, strict=True))
-    return dataset(columns.pop("time"), columns, {})
+    found = dict(zip(units, table.T, strict=True))
+    return dataset(found.pop("time"), found, {})

@@ -3,12 +3,24 @@
 from __future__ import annotations
 
 import math
+from typing import get_args
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from overrun_hitch.parameters import CASES, DATUM, FIGURES, HitchError, Parameters, Scenario, named, quantity
+from overrun_hitch.parameters import (
+    CASES,
+    DATUM,
+    FIGURES,
+    HitchError,
+    InTheory,
+    Owner,
+    Parameters,
+    Scenario,
+    named,
+    quantity,
+)
 
 
 def test_defaults_are_figure_8() -> None:
@@ -44,6 +56,19 @@ def test_every_parameter_has_unit_meaning_and_range(name: str) -> None:
     assert Parameters.unit(name)
     assert Parameters.description(name)[0].islower()
     assert Parameters.allowed(name).startswith("a finite number")
+
+
+def test_every_parameter_says_whose_it_is_and_what_theory_makes_of_it() -> None:
+    for role, allowed in (("of", get_args(Owner)), ("theory", get_args(InTheory))):
+        parts = [Parameters.having(role, value) for value in allowed]
+        assert sorted(name for part in parts for name in part) == sorted(Parameters.model_fields)
+        assert all(parts)
+    assert Parameters.having("of", *get_args(Owner)) == tuple(Parameters.model_fields)
+
+
+def test_what_theory_takes_is_not_what_it_does_not_know() -> None:
+    assert {"M_t", "C", "r", "eps"} <= set(Parameters.having("theory", "exact"))
+    assert {"mu", "sigma", "rebound", "C_rr"} <= set(Parameters.having("theory", "neutral"))
 
 
 @given(st.sampled_from(sorted(Parameters.model_fields)), st.floats())
@@ -89,6 +114,6 @@ def test_scenarios_are_checked_too() -> None:
 
 
 def test_quantity_declares_what_messages_need() -> None:
-    field = quantity(1.0, "kg", "mass", ge=1.0)
-    assert field.json_schema_extra == {"unit": "kg"}
+    field = quantity(1.0, "kg", "mass", "car", "exact", ge=1.0)
+    assert field.json_schema_extra == {"unit": "kg", "of": "car", "theory": "exact"}
     assert field.description == "mass"

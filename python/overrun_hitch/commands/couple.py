@@ -35,10 +35,10 @@ def couple(
     from overrun_hitch.coupling.figure import draw_coupling
     from overrun_hitch.coupling.pair import opened_pair
     from overrun_hitch.coupling.study import check_step, study_coupling
-    from overrun_hitch.coupling.table import show, write_csv
+    from overrun_hitch.coupling.table import csv_columns, show
     from overrun_hitch.fmu.files import CAR, CAR_TRAILER, TRAILER
     from overrun_hitch.fmu.opening import opened_unit
-    from overrun_hitch.show import terminal, traces
+    from overrun_hitch.show import files, terminal, traces
 
     for step in steps:
         check_step(step)
@@ -50,6 +50,6 @@ def couple(
     table = stem.with_name(f"{stem.name}.csv")
     with terminal.patience("Drawing"):
         paths = traces.save(draw_coupling(study), stem)
-        write_csv(study, table)
+        files.write_csv(table, csv_columns(study))
     show(name, study, [table, *paths])
     return 0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -32,36 +31,29 @@ def crosscheck(
     scenarios = [named("figure", name, FIGURES) for name in dict.fromkeys(figure or FIGURES)]
 
     # Imported here, because fmpy, xarray and matplotlib would slow down `hitch --help` and wrong options.
-    from overrun_hitch import results
-    from overrun_hitch.comparison import crosscheck_figures
-    from overrun_hitch.comparison import crosscheck_table as crosscheck_report
+    from overrun_hitch.comparison import crosscheck_figures, crosscheck_table
     from overrun_hitch.comparison.crosscheck import LABELS, Allowed, compare_fmus
     from overrun_hitch.fmu.settings import Settings
-    from overrun_hitch.show import terminal
+    from overrun_hitch.show import files, terminal, traces
 
     if len(fmus) > len(LABELS):
         raise HitchError(f"{len(fmus)} FMUs are too many: {len(LABELS)} at most")
     settings = Settings(relative_tolerance=tolerance, communication_step=step)
     allowed = Allowed(funnel=funnel, funnel_time=funnel_time)
     checks = []
-    contents: dict[str, bytes] = {}  # written when all are there, so that an interrupted run leaves nothing
+    contents: dict[Path, bytes] = {}  # written when all are there, so that an interrupted run leaves nothing
     with terminal.patience("Crosschecking"):
         for scenario in scenarios:
             checks.append(compare_fmus(scenario, fmus, settings, allowed))
             picture = crosscheck_figures.draw(checks[-1], [fmu.name for fmu in fmus], allowed)
-            for kind, content in crosscheck_figures.files(picture).items():
-                contents[f"{file_stem(scenario.name)}.{kind}"] = content
-    paths = [output / name for name in (*contents, "crosscheck.json")]
-    document = crosscheck_report.document(checks, fmus, settings, allowed, paths)
-    contents["crosscheck.json"] = document.encode()
-    for name, content in contents.items():
-        results.write_atomically(output / name, partial(_write, content))
+            for kind in traces.KINDS:
+                contents[output / f"{file_stem(scenario.name)}.{kind}"] = traces.rendered(picture, kind)
+    document = output / "crosscheck.json"
+    paths = [*contents, document]
+    text = files.json_text(crosscheck_table.document(checks, fmus, settings, allowed, paths))
+    files.write({**contents, document: f"{text}\n".encode()})
     if json:
-        print(document, end="")
+        print(text)
     else:
-        crosscheck_report.show(checks, fmus, allowed, paths)
+        crosscheck_table.show(checks, fmus, allowed, paths)
     return 1 if any(comparison.differing for check in checks for comparison in check.comparisons) else 0
-
-
-def _write(content: bytes, path: Path) -> None:
-    path.write_bytes(content)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json as json_format
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -22,12 +20,11 @@ def paper(
     The exit status is 1 if a claim does not hold.
     """
     # Imported here, because fmpy, xarray and matplotlib would slow down `hitch --help` and wrong options.
-    from overrun_hitch import results
     from overrun_hitch.paper.claims import table as claims_table
     from overrun_hitch.paper.claims.all import all_claims
     from overrun_hitch.paper.figures.all import figures, stem
     from overrun_hitch.paper.study import study
-    from overrun_hitch.show import terminal
+    from overrun_hitch.show import files, terminal
     from overrun_hitch.show.traces import KINDS, rendered
 
     unit = chosen_fmu(fmu)
@@ -39,15 +36,9 @@ def paper(
             for name, figure in figures(computed, say).items()
             for kind in KINDS
         }
-    for path, content in contents.items():
-        results.write_atomically(path, partial(_write, content))
+    paths = files.write(contents)
     if json:
-        document = claims_table.document(computed, claims, list(contents))
-        print(json_format.dumps(document, indent=2, allow_nan=False, ensure_ascii=False))
+        print(files.json_text(claims_table.document(computed, claims, paths)))
     else:
-        claims_table.show(claims, list(contents))
+        claims_table.show(claims, paths)
     return 0 if all(claim.verdict == "holds" for claim in claims) else 1
-
-
-def _write(content: bytes, path: Path) -> None:
-    path.write_bytes(content)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shlex
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -23,17 +22,16 @@ def report(
     The exit status is 1 if a claim, or one of the page's own findings, does not hold.
     """
     # Imported here, because fmpy, xarray and matplotlib would slow down `hitch --help` and wrong options.
-    from overrun_hitch import results
     from overrun_hitch.paper.report.page import COMMAND, page, report_of, show
     from overrun_hitch.paper.study import study
-    from overrun_hitch.show import terminal
+    from overrun_hitch.show import files, terminal
 
     unit = chosen_fmu(fmu)
     path = output / "index.html"
     with terminal.patience("Recomputing the paper") as say:
         found = report_of(study.study(unit, say), _with_options(COMMAND, fmu, output), say)
         content = page(found).encode()
-    results.write_atomically(path, partial(_write, content))
+    files.write({path: content})
     show(found, path)
     return 0 if found.holds else 1
 
@@ -44,7 +42,3 @@ def _with_options(command: str, fmu: Path | None, output: Path) -> str:
     if output != FOLDER:
         options += ["--output", str(output)]
     return shlex.join([*command.split(), *options])
-
-
-def _write(content: bytes, path: Path) -> None:
-    path.write_bytes(content)

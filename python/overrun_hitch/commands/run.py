@@ -39,9 +39,10 @@ def run(
 
     # Imported here, because fmpy, xarray and matplotlib would slow down `hitch --help` and wrong options.
     from overrun_hitch import results
+    from overrun_hitch.comparison import theory_table
     from overrun_hitch.comparison.theory import compare
     from overrun_hitch.experiments.step_brake import car_alone, step_brake
-    from overrun_hitch.show import terminal, traces
+    from overrun_hitch.show import files, terminal, traces
 
     accuracy: dict[str, Any] = {
         "fmu": chosen_fmu(fmu),
@@ -52,10 +53,11 @@ def run(
         result = step_brake(scenario, **accuracy)
         rows = compare(result, step_brake(car_alone(scenario), **accuracy))
     stem = output / file_stem(scenario.name)
+    table = stem.with_name(f"{stem.name}.csv")
     with terminal.patience("Drawing"):
-        results.write_csv(result, stem.with_name(f"{stem.name}.csv"))
-        paths = [stem.with_name(f"{stem.name}.csv"), *traces.write(result, stem)]
-    terminal.show(scenario, result, rows, paths)
+        files.write_csv(table, results.columns(result))
+        paths = [table, *traces.write(result, stem)]
+    theory_table.show(scenario, result, rows, paths)
     return 1 if any(row.differs for row in rows) else 0
 
 

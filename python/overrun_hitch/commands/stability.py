@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json as json_format
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
@@ -45,9 +44,9 @@ def stability(
     # Imported here, because SciPy, xarray and matplotlib would slow down `hitch --help` and wrong options.
     from overrun_hitch.modes import figure as stability_figure
     from overrun_hitch.modes import table as stability_table
-    from overrun_hitch.modes.study import document, write_csv
+    from overrun_hitch.modes.study import csv_columns, document
     from overrun_hitch.modes.study import stability as analyse
-    from overrun_hitch.show import terminal, traces
+    from overrun_hitch.show import files, terminal, traces
 
     with terminal.patience("Solving for the modes"):
         result = analyse(name, changed, dampers, speeds)
@@ -55,10 +54,10 @@ def stability(
     paths = [stem.with_name(f"{stem.name}.{kind}") for kind in ("csv", "png", "svg")]
     with terminal.patience("Drawing"):
         figure = stability_figure.draw(result)
-        write_csv(result, paths[0])
+        files.write_csv(paths[0], csv_columns(result))
         traces.save(figure, stem)
     if json:
-        print(json_format.dumps(document(result, paths), indent=2, allow_nan=False))
+        print(files.json_text(document(result, paths)))
     else:
         stability_table.show(result, paths)
     return 0

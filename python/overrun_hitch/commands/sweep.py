@@ -36,7 +36,7 @@ def sweep(
     from overrun_hitch.sweeps import map as sweep_figures
     from overrun_hitch.sweeps import table as sweep_table
     from overrun_hitch.sweeps.engine import run_plan
-    from overrun_hitch.sweeps.plan import planned
+    from overrun_hitch.sweeps.planner import planned
     from overrun_hitch.sweeps.spec import read_spec
 
     asked = read_spec(spec)

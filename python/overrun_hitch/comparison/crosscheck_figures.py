@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 from typing import Any
 
@@ -56,18 +55,6 @@ def draw(check: Crosscheck, names: list[str], allowed: Allowed) -> Figure:
         _limit(below, np.zeros(1), MILLI * float(np.ptp(a)))
         figure.align_ylabels()
     return figure
-
-
-def files(figure: Figure) -> dict[str, bytes]:
-    """The picture by kind of file, "png" and "svg"; the same runs give the same bytes."""
-    kinds: dict[str, dict[str, Any]] = {"png": {"dpi": 200}, "svg": {"metadata": {"Date": None}}}
-    contents = {}
-    with mpl.rc_context(STYLE):
-        for kind, options in kinds.items():
-            buffer = io.BytesIO()
-            figure.savefig(buffer, format=kind, **options)
-            contents[kind] = buffer.getvalue()
-    return contents
 
 
 def _label(axes: Axes, name: str, columns: int) -> None:

@@ -2,7 +2,8 @@
 
 Theory is linear.py and steady.py, simulation is the traces alone. Linear theory speaks of a drawbar that is in
 compression all the time, so a run whose drawbar starts out of it (a clearance, a threshold) or leaves it is reported,
-not judged. Nor is a run with what theory does not know: a second stiffness reached, or a parameter of BEYOND_THEORY.
+not judged. Nor is a run with what theory does not know: a second stiffness reached, or a parameter of parameters.py
+that is declared to be known at its default alone.
 
 What may differ, and why:
 
@@ -21,6 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
+from scipy.integrate import cumulative_trapezoid
 
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.measure.oscillation import NoOscillation, Oscillation, measure
@@ -36,9 +38,6 @@ GROWTH_RATE_ALLOWED = (0.005, 0.01)  # 1/s, and relative
 FREQUENCY_ALLOWED = 0.002  # relative
 STEADY_ALLOWED = 1e-4  # relative, beside slip
 RATIO_ALLOWED = 0.0005
-
-# Judged at their neutral values alone.
-BEYOND_THEORY = ("F_pull_max", "rebound", "mu", "sigma", "CdA_c", "CdA_t", "C_rr")
 
 WHEELS_SETTLED = math.log(1e6)  # the wheels' transient starts at the size of the motion itself
 DECAYED = math.log(100.0)  # 40 dB down the rest weighs nothing in the fit, and soon is the integrator's noise
@@ -68,7 +67,7 @@ class _Run:
         """How many samples pass until theory has the oscillation fall by exp(-measure)."""
         if self.mode is None:
             return len(self.time)
-        exponent = _integral(self.time, self.mode.growth_rate)
+        exponent = cumulative_trapezoid(self.mode.growth_rate, self.time, initial=0.0)
         return int(np.searchsorted(-np.minimum.accumulate(exponent), measure))
 
 
@@ -120,7 +119,7 @@ def _settled_part(run: xr.Dataset) -> _Run:
 
 def _beyond_theory(p: Parameters) -> str:
     """The first parameter that is not neutral and that theory does not know; "" if there is none."""
-    changed = [name for name in BEYOND_THEORY if getattr(p, name) != getattr(DATUM, name)]
+    changed = [name for name in Parameters.having("theory", "neutral") if getattr(p, name) != getattr(DATUM, name)]
     return f"{changed[0]} = {getattr(p, changed[0]):g} is beyond linear theory" if changed else ""
 
 
@@ -186,13 +185,7 @@ def _mean_acceleration(result: xr.Dataset, start: float) -> float:
     return float((speed[-1] - speed[first]) / (time[-1] - time[first]))
 
 
-def _integral(time: Floats, samples: Floats) -> Floats:
-    """Integral (n,) from the first sample on, by the trapezoidal rule."""
-    pieces = 0.5 * (samples[1:] + samples[:-1]) * np.diff(time)
-    return np.concatenate([[0.0], np.cumsum(pieces)])
-
-
 def _mean(time: Floats, samples: Floats) -> float:
     if len(time) < 2:
         return float(samples[0]) if len(samples) else math.nan
-    return float(_integral(time, samples)[-1] / (time[-1] - time[0]))
+    return float(cumulative_trapezoid(samples, time)[-1] / (time[-1] - time[0]))

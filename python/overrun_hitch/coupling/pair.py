@@ -25,9 +25,8 @@ Floats = NDArray[np.float64]
 FORCES = {"F_hitch": 1.0, "F_hitch_mean": 2.0, "F_hitch_hold": 3.0}  # output: value of applied_force
 TRAILER_OUTPUTS = ("compression", "v_rel", "v_trailer", "F_hitch", "coupling_energy", "ball.impulse", "ball.work")
 CAR_OUTPUTS = ("v_car", "a_car", "car.body.x")
-SHARED = ("mu", "sigma", "C_rr", "V_0")
-CAR_PARAMETERS = ("M_c", "I_c", "R_c", "C_kc", "CdA_c", *SHARED)
-TRAILER_PARAMETERS = tuple(name for name in Parameters.model_fields if name in SHARED or name not in CAR_PARAMETERS)
+CAR_PARAMETERS = Parameters.having("of", "car", "both")
+TRAILER_PARAMETERS = Parameters.having("of", "trailer", "link", "both")
 AGREED = 1e-10  # m/s: iterations end when the car's speed at the end of a step moves by less
 ITERATIONS = 50
 

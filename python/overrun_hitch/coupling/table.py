@@ -2,67 +2,56 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
-from rich.console import Console
-from rich.table import Table
-
-from overrun_hitch.coupling.pair import SCHEMES
+from overrun_hitch.coupling.pair import SCHEMES, Scheme
 from overrun_hitch.coupling.study import CouplingStudy, Point, longest_stable_step
-from overrun_hitch.results import write_atomically
+from overrun_hitch.show.table import Column, Numbers, Row, console, show_rows, show_written
 
-NARROW = 78  # columns that the table needs
 MILLI = 1000.0
-COLUMNS = ("scheme", "H [s]", "growth rate [1/s]", "frequency [Hz]", "error of the growth rate [1/s]",
-           "closed form [1/s]", "created energy [J]", "coupling_energy [J]")  # fmt: skip
 
 
 def show(name: str, study: CouplingStudy, paths: Sequence[Path]) -> None:
     """Print the errors of the growth rate, the steps that each scheme bears, and the files written."""
-    console = Console(highlight=False)
+    out = console()
     whole = study.whole
-    console.print(f"{name}, C = {study.parameters.C:g} N.s/m, at {study.V:g} m/s")
-    console.print(f"in one piece: growth rate {whole.growth_rate:.5f} 1/s, frequency {whole.frequency:.5f} Hz")
-    console.print("error of the growth rate in 1/s, by communication step:")
-    if console.width >= NARROW:
-        console.print(_table(study))
-    else:
-        for point in study.points:
-            console.print(f"{point.scheme.name}, {MILLI * point.H:g} ms: {_error(study, point)} 1/s")
-    for scheme in SCHEMES:
-        console.print(f"{scheme.name}: {scheme.what}; {_bears(longest_stable_step(scheme, study.parameters, study.V))}")
-    for path in paths:
-        console.print(f"wrote {path}", markup=False, soft_wrap=True)
-
-
-def write_csv(study: CouplingStudy, path: Path) -> None:
-    """Every number, with units in the header."""
-
-    def write(temporary: Path) -> None:
-        with temporary.open("w", encoding="utf-8", newline="") as file:
-            table = csv.writer(file, lineterminator="\n")
-            table.writerow(COLUMNS)
-            for point in study.points:
-                error = point.growth_rate - study.whole.growth_rate
-                row = (point.H, point.growth_rate, point.frequency, error, point.expected, point.created, point.told)
-                table.writerow([point.scheme.name, *map(repr, row)])
-
-    write_atomically(path, write)
-
-
-def _table(study: CouplingStudy) -> Table:
+    out.print(f"{name}, C = {study.parameters.C:g} N.s/m, at {study.V:g} m/s")
+    out.print(f"in one piece: growth rate {whole.growth_rate:.5f} 1/s, frequency {whole.frequency:.5f} Hz")
+    out.print("error of the growth rate in 1/s, by communication step:")
     steps = sorted({point.H for point in study.points})
-    table = Table(box=None, pad_edge=False)
-    table.add_column("")
-    for H in steps:
-        table.add_column(f"{MILLI * H:g} ms", justify="right", no_wrap=True)
+    columns = (Column(), *(Numbers(f"{MILLI * H:g} ms") for H in steps))
+    rows = (_cells(study, scheme, steps) for scheme in SCHEMES)
+    show_rows(out, columns, rows, (_sentence(study, point) for point in study.points))
     for scheme in SCHEMES:
-        errors = {point.H: _error(study, point) for point in study.of(scheme)}
-        table.add_row(scheme.name, *(errors.get(H, "-") for H in steps))
-    return table
+        out.print(f"{scheme.name}: {scheme.what}; {_bears(longest_stable_step(scheme, study.parameters, study.V))}")
+    show_written(out, paths)
+
+
+def csv_columns(study: CouplingStudy) -> dict[str, list[Any]]:
+    """Every number, by names with units."""
+    points = study.points
+    return {
+        "scheme": [point.scheme.name for point in points],
+        "H [s]": [point.H for point in points],
+        "growth rate [1/s]": [point.growth_rate for point in points],
+        "frequency [Hz]": [point.frequency for point in points],
+        "error of the growth rate [1/s]": [point.growth_rate - study.whole.growth_rate for point in points],
+        "closed form [1/s]": [point.expected for point in points],
+        "created energy [J]": [point.created for point in points],
+        "coupling_energy [J]": [point.told for point in points],
+    }
+
+
+def _cells(study: CouplingStudy, scheme: Scheme, steps: Sequence[float]) -> Row:
+    errors = {point.H: _error(study, point) for point in study.of(scheme)}
+    return (scheme.name, *(errors.get(H, "-") for H in steps))
+
+
+def _sentence(study: CouplingStudy, point: Point) -> str:
+    return f"{point.scheme.name}, {MILLI * point.H:g} ms: {_error(study, point)} 1/s"
 
 
 def _error(study: CouplingStudy, point: Point) -> str:

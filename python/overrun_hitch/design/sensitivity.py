@@ -20,7 +20,8 @@ from SALib.analyze import sobol as analysis
 from SALib.sample import sobol as sampling
 
 from overrun_hitch.parameters import HitchError, Parameters, Quantities, quantity
-from overrun_hitch.sweeps.plan import Plan, planned
+from overrun_hitch.sweeps.plan import Plan
+from overrun_hitch.sweeps.planner import planned
 from overrun_hitch.sweeps.spec import SweepSpec
 
 Floats = NDArray[np.float64]

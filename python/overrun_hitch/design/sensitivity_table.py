@@ -3,34 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
-from rich.console import Console
-from rich.table import Table
 
 from overrun_hitch.design.sensitivity import Sensitivity
+from overrun_hitch.show.table import Column, Numbers, Row, console, show_written, table
 
 
 def show(title: str, found: Sensitivity, paths: Sequence[Path]) -> None:
     """Print the indices with their confidence, the most important for damping first, and the files written."""
-    console = Console(highlight=False)
-    console.print(f"{title}, {found.runs} runs")
-    table = Table(box=None, pad_edge=False)
-    table.add_column("")
-    for metric in found.indices:
-        table.add_column(f"{metric}\nalone", justify="right", no_wrap=True)
-        table.add_column("\ntotal", justify="right", no_wrap=True)
-    first = next(iter(found.indices.values()))
-    for place in np.argsort(-first.total):
-        cells = []
-        for one in found.indices.values():
-            cells += [_cell(one.first[place], one.first_confidence[place])]
-            cells += [_cell(one.total[place], one.total_confidence[place])]
-        table.add_row(found.names[place], *cells)
-    console.print(table)
-    for path in paths:
-        console.print(f"wrote {path}", markup=False, soft_wrap=True)
+    out = console()
+    out.print(f"{title}, {found.runs} runs")
+    pairs = [(Numbers(f"{metric}\nalone"), Numbers("\ntotal")) for metric in found.indices]
+    order = np.argsort(-next(iter(found.indices.values())).total)
+    out.print(table([Column(), *chain.from_iterable(pairs)], (_cells(found, place) for place in order)))
+    show_written(out, paths)
+
+
+def _cells(found: Sensitivity, place: int) -> Row:
+    cells = [found.names[place]]
+    for one in found.indices.values():
+        cells += [_cell(one.first[place], one.first_confidence[place])]
+        cells += [_cell(one.total[place], one.total_confidence[place])]
+    return cells
 
 
 def _cell(index: float, confidence: float) -> str:

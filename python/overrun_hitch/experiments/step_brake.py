@@ -14,7 +14,7 @@ import xarray as xr
 from overrun_hitch.fmu.opening import opened_unit
 from overrun_hitch.fmu.settings import Settings
 from overrun_hitch.fmu.unit import HitchUnit
-from overrun_hitch.parameters import HitchError, Scenario
+from overrun_hitch.parameters import HitchError, Parameters, Scenario
 from overrun_hitch.results import VARIABLES, dataset, scenario_attributes
 
 MOST_STEPS = 1_000_000  # a table of 10 columns of that length takes 80 MB
@@ -59,8 +59,7 @@ def brake(unit: HitchUnit, scenario: Scenario, settings: Settings) -> xr.Dataset
 
 def car_alone(scenario: Scenario) -> Scenario:
     """The same step brake with nothing between car and trailer (k = k_t = C = r = F_0 = 0): the car as if alone."""
-    nothing = dict.fromkeys(("k", "k_t", "k_2", "k_3", "k_buffer", "C", "r", "F_0"), 0.0)
-    loose = scenario.parameters.changed(nothing)
+    loose = scenario.parameters.changed(dict.fromkeys(Parameters.having("of", "link"), 0.0))
     return scenario.changed(name=f"{scenario.name}, car alone", parameters=loose)
 
 

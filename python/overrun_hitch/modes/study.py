@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
@@ -12,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from overrun_hitch.parameters import HitchError, Parameters, Quantities, quantity
-from overrun_hitch.results import write_atomically
 from overrun_hitch.theory.boundary import critical_damping
 from overrun_hitch.theory.linear import compression_matrix, shunting_mode
 from overrun_hitch.theory.steady import steady
@@ -20,8 +18,6 @@ from overrun_hitch.theory.steady import steady
 MOST = 10_000  # combinations of C and V: about a second
 HARD = 5.0  # m/s2, the deceleration for which the paper's figure 3 gives deflections
 ROUNDING = 1e-12  # of the greatest entry of the matrix: below it an eigenvalue is noise
-# What the linear theory takes from Parameters; C and V_0 stand in the rows, the rest counts in simulations alone.
-TAKEN = ("M_c", "M_t", "I_c", "I_t", "R_c", "R_t", "C_kc", "C_kt", "k", "r", "eps")
 
 
 class Speed(Quantities):
@@ -117,8 +113,9 @@ def _row(damped: Parameters, V: float) -> Row:
 
 
 def document(result: Stability, files: Sequence[Path] = ()) -> dict[str, Any]:
-    """Everything with units, ready for json.dumps; `files` are those written beside."""
-    used = {name: getattr(result.parameters, name) for name in TAKEN}
+    """Everything with units, for JSON; `files` are those written beside."""
+    taken = [name for name in Parameters.having("theory", "exact") if name != "C"]  # which stands in the rows
+    used = {name: getattr(result.parameters, name) for name in taken}
     return {
         "name": result.name,
         "parameters": {name: {"value": value, "unit": Parameters.unit(name)} for name, value in used.items()},
@@ -130,17 +127,12 @@ def document(result: Stability, files: Sequence[Path] = ()) -> dict[str, Any]:
     }
 
 
-def write_csv(result: Stability, path: Path) -> None:
-    """Write the rows with units in the header ("V [m/s],C [N.s/m],..."), every digit kept, self_excited as 1 or 0."""
-    names = [field.name for field in fields(Row)]
-
-    def write(temporary: Path) -> None:
-        with temporary.open("w", encoding="utf-8", newline="") as file:
-            table = csv.writer(file, lineterminator="\n")
-            table.writerow([f"{name} [{UNITS[name]}]" for name in names])
-            for row in result.rows:
-                table.writerow(
-                    [repr(value) if isinstance(value, float) else int(value) for value in asdict(row).values()]
-                )
-
-    write_atomically(path, write)
+def csv_columns(result: Stability) -> dict[str, list[Any]]:
+    """The rows by names with units ("V [m/s]", "C [N.s/m]", ...), self_excited as 1 or 0."""
+    columns = {
+        f"{field.name} [{UNITS[field.name]}]": [getattr(row, field.name) for row in result.rows]
+        for field in fields(Row)
+    }
+    return {
+        name: [int(value) if isinstance(value, bool) else value for value in values] for name, values in columns.items()
+    }

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import textwrap
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from overrun_hitch.parameters import HitchError, Scenario
-from overrun_hitch.results import scenario_of, values, write_atomically
+from overrun_hitch.results import scenario_of, values
+from overrun_hitch.show import files
 from overrun_hitch.theory.steady import Steady, steady
 
 # Dark and solid against mid-tone and dashed: told apart in greyscale and by the colour-blind.
@@ -71,10 +71,7 @@ def write(run: xr.Dataset, stem: Path) -> list[Path]:
 
 def save(figure: Figure, stem: Path) -> list[Path]:
     """Write a figure to stem.png and stem.svg; returns the two paths. HitchError if they cannot be written."""
-    contents = {stem.with_name(f"{stem.name}.{kind}"): rendered(figure, kind) for kind in KINDS}
-    for path, content in contents.items():
-        write_atomically(path, partial(_fill, content))
-    return list(contents)
+    return files.write({stem.with_name(f"{stem.name}.{kind}"): rendered(figure, kind) for kind in KINDS})
 
 
 def rendered(figure: Figure, kind: str) -> bytes:
@@ -83,10 +80,6 @@ def rendered(figure: Figure, kind: str) -> bytes:
     with mpl.rc_context(STYLE):
         figure.savefig(buffer, format=kind, **KINDS[kind])
     return buffer.getvalue()
-
-
-def _fill(content: bytes, path: Path) -> None:
-    path.write_bytes(content)
 
 
 def _label(axes: Axes, name: str) -> None:

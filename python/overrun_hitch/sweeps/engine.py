@@ -28,7 +28,8 @@ from tornado.ioloop import PeriodicCallback
 
 from overrun_hitch.parameters import HitchError
 from overrun_hitch.sweeps.job import Batch, Done, Job
-from overrun_hitch.sweeps.plan import Plan, planned
+from overrun_hitch.sweeps.plan import Plan
+from overrun_hitch.sweeps.planner import planned
 from overrun_hitch.sweeps.spec import SweepSpec, read_spec
 from overrun_hitch.sweeps.store import FAILED, MISSING, SweepStore, opened_store, read_sweep
 from overrun_hitch.sweeps.worker import Runners, run_batch
@@ -55,7 +56,7 @@ def sweep(
     workers: int | None = None,
     progress: Progress = lambda done, failed, runs: None,
 ) -> xr.Dataset:
-    """Run what is missing of the sweep in the Zarr `store` and return the whole, see sweep_store.read_sweep.
+    """Run what is missing of the sweep in the Zarr `store` and return the whole, see store.read_sweep.
 
     spec: a SweepSpec, its keywords or a TOML file. fmus: the files to run where the spec names none; ours, if it is
     empty too. scheduler: the address of a Dask scheduler ("tcp://host:8786"), on whose workers this package is

@@ -1,5 +1,5 @@
 """What a sweep is to be, as the user writes it: SPEC.toml or keyword arguments. Its shape is checked here, names and
-ranges of quantities in plan.py.
+ranges of quantities in planner.py.
 
 All numbers are in SI units. The runs are every combination of what the parts list: FMUs, profiles, each axis of `grid`,
 the rows of `runs`, the points of `sample`.

@@ -8,12 +8,16 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 from rich.console import Console
-from rich.table import Table
 
 from overrun_hitch.measure.metrics import METRICS
+from overrun_hitch.show.table import Column, Numbers, Row, console, show_written, table
 from overrun_hitch.sweeps.store import FAILED
 
+Floats = NDArray[np.float64]
+
+COLUMNS = (Column(), Column("unit"), *(Numbers(heading) for heading in ("least", "median", "greatest", "without")))
 MOST_MESSAGES = 3
 
 
@@ -24,30 +28,26 @@ def failures(sweep: xr.Dataset) -> int:
 
 def show(name: str, sweep: xr.Dataset, paths: Sequence[Path]) -> None:
     """Print the least, median and greatest of each metric, why runs failed, and the files written."""
-    console = Console(highlight=False)
-    console.print(f"{name}: {sweep.sizes['run']} runs")
-    table = Table(box=None, pad_edge=False)
-    for heading in ("", "unit", "least", "median", "greatest", "without"):
-        table.add_column(heading, justify="left" if heading in ("", "unit") else "right")
-    for metric in METRICS:
-        if metric in sweep:
-            values = sweep[metric].values
-            some = values[np.isfinite(values)]
-            spread = [f"{value:.5g}" for value in (some.min(), np.median(some), some.max())] if some.size else ["-"] * 3
-            table.add_row(metric, METRICS[metric].unit, *spread, str(values.size - some.size or ""))
-    console.print(table)
-    _show_failures(console, sweep)
-    for path in paths:
-        console.print(f"wrote {path}", markup=False, soft_wrap=True)
+    out = console()
+    out.print(f"{name}: {sweep.sizes['run']} runs")
+    out.print(table(COLUMNS, (_cells(metric, sweep[metric].values) for metric in METRICS if metric in sweep)))
+    _show_failures(out, sweep)
+    show_written(out, paths)
 
 
-def _show_failures(console: Console, sweep: xr.Dataset) -> None:
+def _cells(metric: str, values: Floats) -> Row:
+    some = values[np.isfinite(values)]
+    spread = [f"{value:.5g}" for value in (some.min(), np.median(some), some.max())] if some.size else ["-"] * 3
+    return (metric, METRICS[metric].unit, *spread, str(values.size - some.size or ""))
+
+
+def _show_failures(out: Console, sweep: xr.Dataset) -> None:
     count = failures(sweep)
     if not count:
         return
-    console.print(f"{count} runs failed:")
+    out.print(f"{count} runs failed:")
     reasons = Counter(str(text) for text in sweep["message"].values if text)
     for message, times in reasons.most_common(MOST_MESSAGES):
-        console.print(f"  {times} x {message}", markup=False, soft_wrap=True)
+        out.print(f"  {times} x {message}", markup=False, soft_wrap=True)
     if len(reasons) > MOST_MESSAGES:
-        console.print(f"  and {len(reasons) - MOST_MESSAGES} other messages, in the store")
+        out.print(f"  and {len(reasons) - MOST_MESSAGES} other messages, in the store")

@@ -16,10 +16,10 @@ import overrun_hitch
 from overrun_hitch import cli
 from overrun_hitch.commands.options import assignments
 from overrun_hitch.commands.run import asked_scenario
+from overrun_hitch.comparison import theory_table
 from overrun_hitch.fmu import files as fmu
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.parameters import FIGURES, HitchError
-from overrun_hitch.show import terminal
 
 BAD = [
     (["--set", "Q=1"], "there is no parameter 'Q'; allowed: "),
@@ -179,7 +179,7 @@ def test_piped_and_narrow_output_stays_readable(
     monkeypatch.setenv("COLUMNS", width)
     rows = [Judged("shunting frequency", "Hz", 1.63, 1.63, 1e-3), Judged("A / A_c", "1", 0.95, 0.9, 1e-3, "a reason")]
     result = xr.Dataset(coords={"time": [0.0, 6.0]}, attrs={"ended": "duration"})
-    terminal.show(FIGURES["8"], result, rows, [Path("build/run/" + "x" * 80)])
+    theory_table.show(FIGURES["8"], result, rows, [Path("build/run/" + "x" * 80)])
     out = capsys.readouterr().out
     assert "\x1b" not in out
     for words in ("shunting frequency", "agrees", "not judged: a reason", "wrote build/run/" + "x" * 80):

@@ -18,15 +18,16 @@ from matplotlib.figure import Figure
 
 from fmu_build.pipeline import build
 from overrun_hitch import cli
-from overrun_hitch.comparison import crosscheck_table as crosscheck_report
+from overrun_hitch.comparison import crosscheck_table
 from overrun_hitch.comparison.crosscheck import Allowed, Comparison, Crosscheck, compare_runs
-from overrun_hitch.comparison.crosscheck_figures import LINES, draw, files
+from overrun_hitch.comparison.crosscheck_figures import LINES, draw
 from overrun_hitch.experiments.step_brake import step_brake
 from overrun_hitch.measure.funnel import funnel
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.measure.passages import passages
 from overrun_hitch.parameters import FIGURES
 from overrun_hitch.results import VARIABLES
+from overrun_hitch.show.traces import KINDS, rendered
 from tests.oracles import radau
 from tests.overrun_hitch.experiments.test_step_brake import rewritten
 
@@ -187,8 +188,8 @@ def test_what_is_no_number_differs(brake: Brake) -> None:
             assert comparison.differing == ["slip_car"]
             assert number(comparison, "shunting growth").verdict == "not judged"
             check = Crosscheck(FIGURES["8"], (a.assign_attrs(guid=""), b), (comparison,))
-            assert files(draw(check, ["a", "b"], Allowed())).keys() == {"png", "svg"}
-            crosscheck_report.show([check], [Path("a"), Path("b")], Allowed(), [])
+            assert rendered(draw(check, ["a", "b"], Allowed()), "svg").startswith(b"<?xml")
+            crosscheck_table.show([check], [Path("a"), Path("b")], Allowed(), [])
 
 
 def test_a_run_that_ends_early_or_runs_away_differs(brake: Brake) -> None:
@@ -210,7 +211,7 @@ def test_pictures_have_units_and_legends_off_the_curves(brake: Brake) -> None:
     def drawn() -> Figure:
         return draw(check, ["A.fmu", "b" * 80, "$^$.fmu", "D.fmu"], Allowed())
 
-    assert files(drawn()) == files(drawn())
+    assert all(rendered(drawn(), kind) == rendered(drawn(), kind) for kind in KINDS)
     figure = drawn()
     above, below = figure.axes
     labels = [above.get_ylabel(), below.get_ylabel(), below.get_xlabel()]
@@ -267,7 +268,7 @@ def test_an_fmu_without_our_variables_is_refused(
     assert not output.exists()
 
 
-@pytest.mark.parametrize("place", ["pyfunnel.compareAndReport", "overrun_hitch.comparison.crosscheck_figures.files"])
+@pytest.mark.parametrize("place", ["pyfunnel.compareAndReport", "overrun_hitch.show.traces.rendered"])
 def test_interrupted_it_leaves_nothing(
     place: str, car_trailer_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -300,7 +301,7 @@ def test_narrow_output_stays_readable(
     check = Crosscheck(FIGURES["7"], runs, (compare_runs(*runs, "B", Allowed()),))
     for width in ("40", "80"):
         monkeypatch.setenv("COLUMNS", width)
-        crosscheck_report.show([check], [Path("a" * 90), Path("b.fmu")], Allowed(), [])
+        crosscheck_table.show([check], [Path("a" * 90), Path("b.fmu")], Allowed(), [])
         out = capsys.readouterr().out
         assert "\x1b" not in out
         for words in (

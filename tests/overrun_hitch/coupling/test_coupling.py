@@ -11,9 +11,17 @@ import pytest
 from scipy.signal import find_peaks
 
 from overrun_hitch import cli
-from overrun_hitch.coupling.pair import SCHEMES, Coupled, Pair, opened_pair
+from overrun_hitch.coupling.pair import (
+    CAR_PARAMETERS,
+    SCHEMES,
+    TRAILER_PARAMETERS,
+    Coupled,
+    Pair,
+    opened_pair,
+)
 from overrun_hitch.coupling.study import CouplingStudy, gentle_braking, longest_stable_step, study_coupling
 from overrun_hitch.experiments.step_brake import brake
+from overrun_hitch.fmu.description import described
 from overrun_hitch.fmu.opening import opened_unit
 from overrun_hitch.fmu.settings import Settings
 from overrun_hitch.fmu.unit import HitchUnit
@@ -42,6 +50,12 @@ def studies(pair: Pair, whole: HitchUnit) -> dict[float, CouplingStudy]:
     """By C, over three steps."""
     steps = (0.005, 0.01, 0.02)
     return {C: study_coupling(pair, whole, CASES["ii"].changed({"C": C}), V, steps) for C in (100.0, 500.0)}
+
+
+def test_each_unit_has_the_parameters_that_are_declared_to_be_its(pair_fmus: dict[int, dict[str, Path]]) -> None:
+    for unit, declared in (("Car", CAR_PARAMETERS), ("Trailer", TRAILER_PARAMETERS)):
+        there = described(pair_fmus[2][unit]).parameters.keys() - {"extrapolation", "applied_force"}
+        assert there == set(declared), unit
 
 
 def errors(study: CouplingStudy, name: str) -> list[float]:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from scipy.integrate import cumulative_trapezoid, solve_ivp
 
 from overrun_hitch.experiments.stop import SLOWEST, Stop, stop
 from overrun_hitch.fmu.opening import opened_unit
@@ -100,7 +100,7 @@ def test_what_the_growth_rate_leaves_out_is_the_changing_shape_of_the_mode() -> 
         right[n] = vectors[:, mode] / vectors[0, mode]  # counted from the compression
         left[n] = np.linalg.inv(vectors)[mode] * vectors[0, mode]
     shape = -np.sum(left * np.gradient(right, V, axis=0), axis=1).real
-    summed = np.concatenate([[0.0], np.cumsum(0.5 * (shape[1:] + shape[:-1]) * np.diff(V))])
+    summed = cumulative_trapezoid(shape, V, initial=0.0)
     expected = np.exp(np.interp(-speed(scenario, time), -V, summed))
     ratio = amplitude / predicted_amplitude(scenario, time)
     left_out, explained = ratio / ratio[0], expected / expected[0]

@@ -14,7 +14,8 @@ from scipy.stats import qmc
 
 from overrun_hitch import cli
 from overrun_hitch.parameters import CASES, DATUM, HitchError, Parameters
-from overrun_hitch.sweeps.plan import Plan, planned
+from overrun_hitch.sweeps.plan import Plan
+from overrun_hitch.sweeps.planner import planned
 from overrun_hitch.sweeps.sampling import sampled
 from overrun_hitch.sweeps.spec import SweepSpec, read_spec
 

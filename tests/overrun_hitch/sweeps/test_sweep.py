@@ -26,7 +26,7 @@ from overrun_hitch.parameters import FIGURES, HitchError, Parameters
 from overrun_hitch.results import VARIABLES
 from overrun_hitch.sweeps.engine import WORKER_DIED
 from overrun_hitch.sweeps.job import Batch, Done
-from overrun_hitch.sweeps.plan import planned
+from overrun_hitch.sweeps.planner import planned
 from overrun_hitch.sweeps.spec import SweepSpec
 from overrun_hitch.sweeps.store import FAILED, FINISHED, MISSING, opened_store, read_sweep
 from overrun_hitch.sweeps.worker import Runner, run_batch

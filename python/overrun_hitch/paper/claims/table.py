@@ -14,23 +14,27 @@ from rich.text import Text
 
 from overrun_hitch.paper.claims.claim import Claim, Part
 from overrun_hitch.paper.study.study import Study
+from overrun_hitch.show.table import NARROW, Column, Numbers, Row, console, show_written, table
 
-NARROW = 78  # columns that the table needs
 INDENT = 3
 SIDES = ("theory", "fmu")
+COLUMNS = (
+    *(Column(heading) for heading in ("", "unit", "printed", "must be")),
+    Numbers("theory", least=9),
+    Numbers("FMU", least=9),
+)
 MISSES = " !"  # behind a number that does not meet its criterion
 
 
 def show(claims: Sequence[Claim], paths: Sequence[Path]) -> None:
     """Print every claim, how many hold and the files written."""
-    console = Console(highlight=False)
+    out = console()
     for claim in claims:
-        _show_claim(console, claim)
-    console.print(summary(claims), soft_wrap=True)
+        _show_claim(out, claim)
+    out.print(summary(claims), soft_wrap=True)
     if not all(claim.verdict == "holds" for claim in claims):
-        console.print(f"a number with{MISSES} does not meet its criterion")
-    for path in paths:
-        console.print(f"wrote {path}", markup=False, soft_wrap=True)
+        out.print(f"a number with{MISSES} does not meet its criterion")
+    show_written(out, paths)
 
 
 def summary(claims: Sequence[Claim]) -> str:
@@ -40,7 +44,7 @@ def summary(claims: Sequence[Claim]) -> str:
 
 
 def document(study: Study, claims: Sequence[Claim], paths: Sequence[Path]) -> dict[str, Any]:
-    """All claims with parts and verdicts for JSON: null where a side has no number or no verdict."""
+    """All claims with parts and verdicts for JSON: no number, NaN, or no verdict, None, where a side has none."""
     return {
         "fmu": study.fmu,
         "guid": study.guid,
@@ -64,7 +68,7 @@ def _claim(claim: Claim) -> dict[str, Any]:
                 "unit": part.unit,
                 "printed": part.printed,
                 "criterion": part.criterion.words,
-                **{side: _finite(getattr(part, side)) for side in SIDES},
+                **{side: getattr(part, side) for side in SIDES},
                 "holds": {side: part.holds(side) for side in SIDES},
             }
             for part in claim.parts
@@ -72,41 +76,32 @@ def _claim(claim: Claim) -> dict[str, Any]:
     }
 
 
-def _finite(value: float) -> float | None:
-    """JSON knows neither NaN nor infinity."""
-    return value if math.isfinite(value) else None
-
-
-def _show_claim(console: Console, claim: Claim) -> None:
+def _show_claim(out: Console, claim: Claim) -> None:
     colour = "green" if claim.verdict == "holds" else "bold red"
-    console.print(Text.assemble(f"{claim.number:>2} ", (claim.verdict, colour), f" ({claim.where})"))
-    console.print(Padding(Text(claim.text), (0, 0, 0, INDENT), expand=False))
-    if console.width >= NARROW:
-        console.print(Padding(_table(claim.parts), (0, 0, 0, INDENT), expand=False))
+    out.print(Text.assemble(f"{claim.number:>2} ", (claim.verdict, colour), f" ({claim.where})"))
+    out.print(_indented(Text(claim.text)))
+    if out.width >= NARROW:
+        out.print(_indented(table(COLUMNS, map(_cells, claim.parts))))
     else:
         for part in claim.parts:
-            sentence = (
-                f"{part.what} ({part.unit}): printed {part.printed}; {part.criterion.words}; "
-                f"theory {_number(part, 'theory')}, FMU {_number(part, 'fmu')}"
-            )
-            console.print(Padding(Text(sentence), (0, 0, 0, INDENT), expand=False))
+            out.print(_indented(Text(_sentence(part))))
     if claim.remark:
-        console.print(Padding(Text(claim.remark), (0, 0, 0, INDENT), expand=False))
-    console.print()
+        out.print(_indented(Text(claim.remark)))
+    out.print()
 
 
-def _table(parts: Sequence[Part]) -> Table:
-    table = Table(box=None, pad_edge=False, header_style="dim")
-    table.add_column("", ratio=4)
-    table.add_column("unit", ratio=1)
-    table.add_column("printed", ratio=2)
-    table.add_column("must be", ratio=2)
-    for heading in ("theory", "FMU"):
-        table.add_column(heading, justify="right", no_wrap=True, min_width=9)
-    for part in parts:
-        numbers = [Text(_number(part, side), "bold red" if part.holds(side) is False else "") for side in SIDES]
-        table.add_row(part.what, part.unit, part.printed, part.criterion.words, *numbers)
-    return table
+def _indented(content: Text | Table) -> Padding:
+    return Padding(content, (0, 0, 0, INDENT), expand=False)
+
+
+def _cells(part: Part) -> Row:
+    numbers = [Text(_number(part, side), "bold red" if part.holds(side) is False else "") for side in SIDES]
+    return (part.what, part.unit, part.printed, part.criterion.words, *numbers)
+
+
+def _sentence(part: Part) -> str:
+    both = f"theory {_number(part, 'theory')}, FMU {_number(part, 'fmu')}"
+    return f"{part.what} ({part.unit}): printed {part.printed}; {part.criterion.words}; {both}"
 
 
 def _number(part: Part, side: str) -> str:

@@ -14,7 +14,6 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup, escape
 from matplotlib.figure import Figure
-from rich.console import Console
 
 from overrun_hitch.experiments.stop import SLOWEST
 from overrun_hitch.paper.claims import table as claims_table
@@ -26,6 +25,7 @@ from overrun_hitch.paper.report.lessons import Lesson, amplitude_error, decides,
 from overrun_hitch.paper.report.svg import inline
 from overrun_hitch.paper.study import beyond, jacobian
 from overrun_hitch.paper.study.study import BRAKE_TORQUE, DAMPED, SETTINGS, Study
+from overrun_hitch.show.table import console, show_written
 from overrun_hitch.show.traces import rendered
 
 COMMAND = ".venv/bin/hitch report"  # what `make report` does
@@ -123,10 +123,10 @@ def page(report: Report) -> str:
 
 def show(report: Report, path: Path) -> None:
     """Print the findings and the page's path."""
-    console = Console(highlight=False)
+    out = console()
     for finding in report.findings:
-        console.print(f"[{'green' if finding.holds else 'bold red'}]{finding.verdict}[/]: {finding.text}")
-    console.print(f"wrote {path}", markup=False, soft_wrap=True)
+        out.print(f"[{'green' if finding.holds else 'bold red'}]{finding.verdict}[/]: {finding.text}")
+    show_written(out, [path])
 
 
 def _findings(study: Study, claims: Sequence[Claim]) -> list[Finding]:
