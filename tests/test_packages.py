@@ -67,6 +67,7 @@ def test_the_sources_inside_rebuild_the_binary(car_trailer_fmus: dict[int, Path]
         "-ffp-contract=off",
         "-fPIC",
         "-shared",
+        f"-DFMI{version}_OVERRIDE_FUNCTION_PREFIX",
         *files,
         "-o",
         str(library),

@@ -19,6 +19,8 @@ def print_elimination(elimination: Elimination) -> CSources:
 #ifndef ELIMINATION_H
 #define ELIMINATION_H
 
+#include "unit.h"
+
 #define ELIMINATION_WRITTEN_OUT {int(written_out)}
 
 enum {{ N_JACOBIAN = {len(elimination.jacobian)}, N_FACTORS = {len(elimination.pattern)} }};

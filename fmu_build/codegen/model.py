@@ -44,6 +44,8 @@ def _header(model: SortedModel, identifier: str, names: dict[str, str], n_coupli
 #ifndef VARIABLES_H
 #define VARIABLES_H
 
+#include "unit.h"
+
 #define MODEL_NAME {string(identifier)}
 #define MODEL_TOKEN "{TOKEN_PLACEHOLDER}"
 #define DEFAULT_TOLERANCE {tolerance!r}

@@ -27,11 +27,13 @@ def binaries(
         work = Path(folder)
         for name, content in files.items():
             if name.startswith(SOURCES):
-                (work / name.removeprefix(SOURCES)).write_bytes(content)
+                place = work / name.removeprefix(SOURCES)
+                place.parent.mkdir(exist_ok=True)
+                place.write_bytes(content)
         for platform in platforms:
             progress(f"compiling for {platform.name}")
             library = work / f"{identifier}{platform.suffix}"
             compile_library(work, library, platform)
-            place = platform.fmi2_folder if fmi == 2 else platform.fmi3_folder
-            libraries.setdefault(f"binaries/{place}/{library.name}", []).append(library.read_bytes())
+            binary = platform.fmi2_folder if fmi == 2 else platform.fmi3_folder
+            libraries.setdefault(f"binaries/{binary}/{library.name}", []).append(library.read_bytes())
     return {place: universal(same) for place, same in libraries.items()}

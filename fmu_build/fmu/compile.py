@@ -17,7 +17,12 @@ from ..errors import BuildError
 RUNTIME = Path(__file__).parents[1] / "runtime"
 WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Wdouble-promotion")
 # No fused multiply-add: the same source gives the same digits on every machine.
-OPTIONS = ("-std=c11", "-O3", "-ffp-contract=off", "-fPIC", "-shared", "-fvisibility=hidden", *WARNINGS)
+# A shared library's functions have the standard's own names; a prefix is for static linking (see unit_header.py).
+UNPREFIXED = ("-DFMI2_OVERRIDE_FUNCTION_PREFIX", "-DFMI3_OVERRIDE_FUNCTION_PREFIX")
+OPTIONS = ("-std=c11", "-O3", "-ffp-contract=off", "-fPIC", "-shared", "-fvisibility=hidden", *UNPREFIXED, *WARNINGS)
+# Calls from inside the library stay inside, whatever else the process has loaded under the same names. Windows and
+# macOS bind them so by themselves.
+ELF = ("-Wl,-Bsymbolic",)
 
 
 @dataclass(frozen=True)
@@ -100,14 +105,6 @@ def compiler() -> list[str]:
     return zig
 
 
-def fmi_headers() -> Path:
-    """The folder with the standard's C headers, as the installed fmpy package ships them."""
-    spec = importlib.util.find_spec("fmpy")
-    if spec is None or spec.origin is None:
-        raise BuildError("the package fmpy, which ships the FMI headers, is not installed")
-    return Path(spec.origin).parent / "c-code"
-
-
 def compile_library(folder: Path, library: Path, platform: Platform) -> None:
     """Compile the C files of ``folder`` (model, runtime and facade) to the shared library ``library``.
 
@@ -122,7 +119,7 @@ def compile_library(folder: Path, library: Path, platform: Platform) -> None:
         linked = Path(f"link-{platform.name}") / library.name
         (folder / linked).parent.mkdir()
         try:
-            command = [*_command(platform, library.name), "-I.", f"-isystem{fmi_headers()}", *sources]
+            command = [*_command(platform, library.name), "-I.", *sources]
             command += ["-o", linked.as_posix(), *([] if platform.suffix == ".dll" else ["-lm"])]
             _run(command, folder, environment)
             library.parent.mkdir(parents=True, exist_ok=True)
@@ -132,13 +129,13 @@ def compile_library(folder: Path, library: Path, platform: Platform) -> None:
 
 
 def _command(platform: Platform, library: str) -> list[str]:
-    install_name = [f"-Wl,-install_name,@rpath/{library}"] if platform.suffix == ".dylib" else []
+    linking = {".dylib": [f"-Wl,-install_name,@rpath/{library}"], ".so": [*ELF]}.get(platform.suffix, [])
     if platform.zig_target is None:
-        return [*compiler(), *OPTIONS, *os.environ.get("CFLAGS", "").split(), *install_name]
+        return [*compiler(), *OPTIONS, *os.environ.get("CFLAGS", "").split(), *linking]
     zig = zig_compiler()
     if zig is None:
         raise BuildError(f"platform {platform.name}: the package ziglang, which compiles for it, is not installed")
-    return [*zig, "-target", platform.zig_target, "-s", *OPTIONS, *install_name]
+    return [*zig, "-target", platform.zig_target, "-s", *OPTIONS, *linking]
 
 
 def _run(command: list[str], folder: Path, environment: dict[str, str]) -> None:

@@ -15,6 +15,7 @@ from .icon import draw_icon
 from .interface import Interface
 from .licences import licence_files
 from .reference import reference_files
+from .unit_header import how_to_build, unit_header
 
 HEADERS = Path(__file__).parents[1] / "headers"
 SOURCES = "sources/"
@@ -24,8 +25,12 @@ def contents(
     flat: FlatModel, interface: Interface, generated: CSources, references: Sequence[Simulation], fmi: int
 ) -> dict[str, bytes]:
     """The files of an FMI 2 or FMI 3 unit, with the hash of them all as its token."""
-    sources = {file.name: file.read_bytes() for file in _hand_written(fmi)}
+    sources = {file.name: file.read_bytes() for file in _runtime(fmi)}
     sources |= {name: text.encode() for name, text in generated.files.items()}
+    shared = [content.decode() for name, content in sources.items() if name.endswith(".h")]
+    sources["unit.h"] = unit_header(interface.identifier, fmi, shared).encode()
+    sources |= {f"fmi{fmi}/{file.name}": file.read_bytes() for file in (HEADERS / f"fmi{fmi}").glob("*.h")}
+    sources["README.txt"] = how_to_build(interface.identifier, fmi).encode()
     compiled = sorted(name for name in sources if name.endswith(".c"))
     icon = draw_icon(flat.icon, interface.identifier)
     if fmi == 2:
@@ -49,8 +54,7 @@ def contents(
     return {name: content.replace(TOKEN_PLACEHOLDER.encode(), token) for name, content in files.items()}
 
 
-def _hand_written(fmi: int) -> list[Path]:
-    """The runtime with the facade of one version of the standard, and that version's headers."""
+def _runtime(fmi: int) -> list[Path]:
+    """The runtime with the facade of one version of the standard."""
     other = {2: "fmi3", 3: "fmi2"}[fmi]
-    runtime = [file for file in RUNTIME.rglob("*.[ch]") if file.parent.name != other]
-    return sorted([*runtime, *(HEADERS / f"fmi{fmi}").glob("*.h")])
+    return sorted(file for file in RUNTIME.rglob("*.[ch]") if file.parent.name != other)

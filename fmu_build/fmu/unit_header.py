@@ -35,5 +35,23 @@ def unit_header(identifier: str, fmi: int, headers: Iterable[str]) -> str:
 """
 
 
+def how_to_build(identifier: str, fmi: int) -> str:
+    """The text of sources/README.txt."""
+    return f"""The unit {identifier} in C11. Not C++: compile it as C; the objects may be linked into a C++ program.
+
+A shared library, for binaries/, with the standard's own function names:
+
+    cc -std=c11 -O3 -ffp-contract=off -fPIC -shared -fvisibility=hidden -DFMI{fmi}_OVERRIDE_FUNCTION_PREFIX *.c -lm
+
+Static linking, also of several units into one program: without that definition the functions are named
+{identifier}_fmi{fmi}Instantiate and so on, and everything else bears a name of this unit's own (unit.h):
+
+    cc -std=c11 -O3 -ffp-contract=off -c *.c
+
+-ffp-contract=off gives the same digits on every machine. The headers of the standard are taken from the include path if
+they are there, else from the folder fmi{fmi} beside the sources.
+"""
+
+
 def _without_comments(text: str) -> str:
     return re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)

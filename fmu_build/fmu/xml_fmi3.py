@@ -71,6 +71,14 @@ def describe_build(identifier: str, sources: Sequence[str]) -> bytes:
     files = etree.SubElement(configuration, "SourceFileSet", language="C11")
     for name in sources:
         etree.SubElement(files, "SourceFile", name=name)
+    etree.SubElement(
+        files,
+        "PreprocessorDefinition",
+        name="FMI3_OVERRIDE_FUNCTION_PREFIX",
+        optional="true",
+        value="1",
+        description="For a shared library, whose functions bear the standard's own names",
+    )
     etree.SubElement(configuration, "Library", name="m", external="true", description="C mathematical library")
     return to_bytes(root)
 

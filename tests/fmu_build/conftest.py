@@ -84,6 +84,7 @@ class CompiledModel:
         algebra = print_elimination(eliminate(jacobian.entries, len(model.states)))
         for name, text in {**print_c(model, jacobian, "M").files, **algebra.files}.items():
             (folder / name).write_text(text, encoding="utf-8")
+        (folder / "unit.h").touch()
         library = folder / "model.so"
         flags = ["-std=c11", "-O1", "-fPIC", "-shared", *WARNINGS, "-Werror", f"-I{folder}", f"-I{RUNTIME}"]
         flags.append(f"-I{RUNTIME / 'numerics'}")

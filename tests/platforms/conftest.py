@@ -13,7 +13,8 @@ from pathlib import Path
 import fmpy
 import pytest
 
-from fmu_build.fmu.compile import PLATFORMS, WARNINGS, Platform, compiler, fmi_headers, host_platform, zig_compiler
+from fmu_build.fmu.compile import PLATFORMS, WARNINGS, Platform, compiler, host_platform, zig_compiler
+from fmu_build.fmu.contents import HEADERS
 from fmu_build.pipeline import build
 
 HERE = Path(__file__).parent
@@ -79,7 +80,16 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Program]:
         libraries = [] if suffix else ["-ldl", "-lm", "-lpthread"]
         path = folder / f"{name}{suffix}"
         sources = [str(HERE / f"{name}.c"), str(HERE / "unit.c")]
-        command = [*command, *FLAGS, *options, f"-isystem{fmi_headers()}", *sources, "-o", str(path), *libraries]
+        command = [
+            *command,
+            *FLAGS,
+            *options,
+            *(f"-isystem{HEADERS / version}" for version in ("fmi2", "fmi3")),
+            *sources,
+            "-o",
+            str(path),
+            *libraries,
+        ]
         subprocess.run(command, check=True, env={"ZIG_LOCAL_CACHE_DIR": str(folder), **os.environ})
         return Program(path, before)
 

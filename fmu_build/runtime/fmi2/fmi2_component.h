@@ -2,7 +2,7 @@
 #ifndef FMI2_COMPONENT_H
 #define FMI2_COMPONENT_H
 
-#include "fmi2Functions.h"
+#include "fmi2_header.h"
 #include "instance.h"
 
 typedef struct {

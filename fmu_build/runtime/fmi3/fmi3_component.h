@@ -2,7 +2,7 @@
 #ifndef FMI3_COMPONENT_H
 #define FMI3_COMPONENT_H
 
-#include "fmi3Functions.h"
+#include "fmi3_header.h"
 #include "instance.h"
 
 typedef struct {
