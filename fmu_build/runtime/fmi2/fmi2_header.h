@@ -1,5 +1,5 @@
-/* The standard's header: the importer's own where it is on the include path, as FMI asks for, else the one that lies in a
- * folder beside. The prefix of its functions is defined before, in unit.h. */
+/* The standard's header: the importer's own where it is on the include path, as FMI asks for, else the one that lies in
+ * a folder beside. The prefix of its functions is defined before, in unit.h. */
 #ifndef FMI2_HEADER_H
 #define FMI2_HEADER_H
 

@@ -85,7 +85,7 @@ class GeneratedModel:
 
     def files(self) -> dict[str, str]:
         header = self.sources["variables.h"].replace(TOKEN_PLACEHOLDER, TOKEN)
-        return {**self.sources, "variables.h": header}
+        return {**self.sources, "unit.h": "", "variables.h": header}
 
     def references(self) -> dict[str, int]:
         return self.value_references

@@ -223,7 +223,6 @@ class Unit:
 def compile_sources(model: Model, folder: Path, fmi: int, flags: list[str], extra: str, output: str) -> Path:
     """The runtime with one facade, the model, and one more file of this folder."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "unit.h").touch()  # names without prefixes
     for name, text in model.files().items():
         (folder / name).write_text(text, encoding="utf-8")
     other = {2: "fmi3", 3: "fmi2"}[fmi]
