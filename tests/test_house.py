@@ -106,7 +106,8 @@ def test_no_folder_hides_what_the_package_offers() -> None:
 
 def test_no_file_is_too_long() -> None:
     files = [file for folder in ("fmu_build", "python", "tests") for file in (ROOT / folder).rglob("*.*")]
-    sources = [file for file in files if file.suffix in {".py", ".c", ".h"}]
+    ours = [file for file in files if ROOT / "fmu_build" / "headers" not in file.parents]  # the rest is the standard's
+    sources = [file for file in ours if file.suffix in {".py", ".c", ".h"}]
     lengths = {str(file.relative_to(ROOT)): file.read_text(encoding="utf-8").count("\n") for file in sources}
     assert len(lengths) > 200 and {name: n for name, n in lengths.items() if n > LONGEST_FILE} == {}
 
@@ -122,7 +123,19 @@ def long_functions(files: Iterable[Path]) -> Iterator[str]:
 
 
 def test_no_function_is_too_long(tmp_path: Path) -> None:
-    assert list(long_functions((ROOT / "fmu_build").rglob("*.py"))) == []
+    packages = [file for folder in ("fmu_build", "python") for file in (ROOT / folder).rglob("*.py")]
+    assert list(long_functions(packages)) == []
     long = tmp_path / "long.py"
     long.write_text("def f() -> None:\n" + "    pass\n" * (LONGEST_FUNCTION + 1), encoding="utf-8")
     assert len(list(long_functions([long]))) == 1
+
+
+def test_no_function_in_c_is_too_long() -> None:
+    """By clang-format's habit a function begins and ends with a brace at the start of a line."""
+    lengths = {}
+    for file in RUNTIME.rglob("*.c"):
+        lines = file.read_text(encoding="utf-8").splitlines()
+        begins = [number for number, line in enumerate(lines) if line == "{"]
+        for begin in begins:
+            lengths[file.name, begin + 1] = lines[begin:].index("}") - 1
+    assert len(lengths) > 200 and {place: n for place, n in lengths.items() if n > LONGEST_FUNCTION} == {}

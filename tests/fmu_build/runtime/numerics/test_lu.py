@@ -32,7 +32,7 @@ class Factors:
     def __init__(self, entries: list[tuple[int, int]], count: int, folder: Path) -> None:
         self.elimination = eliminate(entries, count)
         folder.mkdir()
-        files = {**print_elimination(self.elimination).files, "variables.h": VARIABLES.format(count)}
+        files = {**print_elimination(self.elimination).files, "variables.h": VARIABLES.format(count), "unit.h": ""}
         for name, text in files.items():
             (folder / name).write_text(text, encoding="utf-8")
         sources = [str(RUNTIME / "numerics" / "lu.c"), str(folder / "elimination.c")]
