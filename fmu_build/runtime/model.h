@@ -19,6 +19,7 @@
 #include <stdbool.h>
 
 #include "elimination.h"
+#include "glibc.h"
 #include "variables.h"
 
 /* variables.h defines (example of a model with 2 states, 1 input, 2 parameters and 1 relation):

@@ -124,3 +124,17 @@ def test_only_the_standards_functions_are_exported_and_none_is_called_from_insid
         relocated = {relocation.symbol.name for relocation in library.relocations if relocation.symbol}
         assert exported and all(symbol.startswith(f"fmi{fmi}") for symbol in exported)
         assert not {symbol for symbol in relocated if symbol.startswith(("fmi2", "fmi3"))}
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads ELF")
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_an_old_system_will_do(units: dict[tuple[str, int], Path], fmi: int) -> None:
+    """The library that this machine's compiler makes asks for no newer C library than those made for all systems."""
+    for name in NAMES:
+        with zipfile.ZipFile(units[name, fmi]) as archive:
+            (place,) = (n for n in archive.namelist() if n.startswith("binaries/"))
+            library = lief.ELF.parse(list(archive.read(place)))
+        assert library is not None
+        asked = {aux.name for needed in library.symbols_version_requirement for aux in needed.get_auxiliary_symbols()}
+        versions = [tuple(map(int, text.removeprefix("GLIBC_").split("."))) for text in asked]
+        assert versions and max(versions) <= (2, 17), asked
