@@ -72,7 +72,7 @@ def build(
     algebra = print_elimination(elimination)
     generated = CSources(equations.files | algebra.files)
     progress("describing")
-    interface = expose(model, identifier, ports.terminals)
+    interface = expose(model, jacobian, identifier, ports)
     simulations = [simulate(modelica, example) for example in flat.examples]
     files = contents(flat, interface, generated, simulations, fmi)
     libraries = binaries(files, identifier, chosen, fmi, progress)

@@ -170,3 +170,12 @@ def test_speeds_can_be_given_and_seen_in_kilometres_an_hour(car_trailer_fmus: di
     assert run["v_car"][0] == pytest.approx(25.0, rel=1e-15)
     description = fmpy.read_model_description(str(car_trailer_fmus[version]))
     assert next(v for v in description.modelVariables if v.name == "v_car").displayUnit == "km/h"
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_the_page_names_what_each_event_indicator_stands_for(car_trailer_fmus: dict[int, Path], version: int) -> None:
+    with zipfile.ZipFile(car_trailer_fmus[version]) as archive:
+        page = archive.read("documentation/index.html").decode()
+    rows = re.findall(r"<tr><td>(\d+)</td><td>(Positive where [^<]*)</td></tr>", page)
+    assert [int(number) for number, _ in rows] == list(range(1, 10))
+    assert "Positive where compression &lt; 0 (Components/DrawbarSpring.mo:" in page

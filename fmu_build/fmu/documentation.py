@@ -46,7 +46,7 @@ def document(interface: Interface, text: str, claims: Claims, picture: str, *, h
 <p><strong>{escape(interface.description)}</strong></p>
 {nh3.clean(text)}
 {tables}
-<h2>How it runs</h2>
+{_indicators(interface)}<h2>How it runs</h2>
 <p>Co-Simulation and Model Exchange. As a Co-Simulation unit it brings its own integrator, Rodas5P (Steinebach 2023), a
 linearly implicit method of order 5 with the exact Jacobian. Error control chooses its steps: while no input changes,
 they go on across communication points, which are read off the solution. An input that gets a new value ends a step. The
@@ -62,6 +62,15 @@ are refused with a message.</p>
 </html>
 """
     return page.encode()
+
+
+def _indicators(interface: Interface) -> str:
+    """What switches at the zeros of each event indicator, which FMI 2 gives a number and no name."""
+    rows = "".join(
+        f"<tr><td>{number}</td><td>{escape(entry.variable.description)}</td></tr>\n"
+        for number, entry in enumerate(interface.event_indicators, start=1)
+    )
+    return f"<h2>Event indicators</h2>\n<table><tr><th>number</th><th></th></tr>\n{rows}</table>\n" if rows else ""
 
 
 def _table(heading: str, causality: str, interface: Interface) -> str:

@@ -11,12 +11,15 @@ from dataclasses import dataclass, field
 
 from ..ir.dependencies import start_value, tunable_parameters
 from ..ir.equations import EnumerationType, Variable
-from ..ir.models import DEFAULT_TOLERANCE, SortedModel, Terminal
+from ..ir.models import DEFAULT_TOLERANCE, JacobianModel, Ports, SortedModel, Terminal
 from ..ir.symbols import TIME
 from ..ir.units import conversion
+from .dependency_kinds import DEPENDENT, dependency_kinds
+from .ports import REPLACED
 
 GENERATION_TOOL = "OverrunHitch fmu_build"
-Dependencies = dict[str, tuple[str, ...]]  # names of unknowns to names of knowns, both listed
+NO_PORTS = Ports()
+Dependencies = dict[str, tuple[tuple[str, str], ...]]  # names of unknowns to knowns with their kinds, both listed
 
 
 @dataclass(frozen=True)
@@ -108,7 +111,7 @@ def displayed_in(variable: Variable) -> str:
     return variable.display_unit if known else ""
 
 
-def expose(model: SortedModel, identifier: str, terminals: tuple[Terminal, ...] = ()) -> Interface:
+def expose(model: SortedModel, jacobian: JacobianModel, identifier: str, ports: Ports = NO_PORTS) -> Interface:
     """The interface of ``model``: everything public, states in any case; of parameters no mere copies."""
     roles = _Roles(model)
     candidates = (Variable(TIME, "Time", unit="s"), *model.variables.values())
@@ -120,9 +123,9 @@ def expose(model: SortedModel, identifier: str, terminals: tuple[Terminal, ...] 
         entries=entries,
         event_indicators=tuple(roles.entry(model.variables[name]) for name in model.residuals),
         experiment=_experiment(model),
-        terminals=terminals,
+        terminals=ports.terminals,
         has_checks=bool(model.schedule.check_assignments),
-        **_structure(model, entries),
+        **_structure(model, entries, _known_kinds(model, jacobian, ports)),
     )
 
 
@@ -178,7 +181,17 @@ def _experiment(model: SortedModel) -> dict[str, str]:
     return {name: repr(value) for name, value in values.items() if value is not None}
 
 
-def _structure(model: SortedModel, entries: tuple[Entry, ...]) -> dict[str, Dependencies]:
+def _known_kinds(model: SortedModel, jacobian: JacobianModel, ports: Ports) -> dict[str, dict[str, str]]:
+    """Kinds of dependencies, of what they are known. In Co-Simulation a coupling puts values of its own in place of
+    some outputs: of those nothing is said."""
+    replaced = () if ports.coupling is None else [getattr(ports.coupling, key) for key in REPLACED]
+    kinds = dependency_kinds(model, jacobian)
+    return {name: ways for name, ways in kinds.items() if name not in replaced}
+
+
+def _structure(
+    model: SortedModel, entries: tuple[Entry, ...], kinds: Mapping[str, Mapping[str, str]]
+) -> dict[str, Dependencies]:
     sources = model.sources
     order = {entry.name: position for position, entry in enumerate(entries)}
     during = {*model.states, *model.inputs, TIME}
@@ -193,15 +206,20 @@ def _structure(model: SortedModel, entries: tuple[Entry, ...]) -> dict[str, Depe
     def sort(names: frozenset[str]) -> tuple[str, ...]:
         return tuple(sorted(names & order.keys(), key=order.__getitem__))
 
+    def during_with_kinds(name: str) -> tuple[tuple[str, str], ...]:
+        return tuple((known, kinds.get(name, {}).get(known, DEPENDENT)) for known in sort(now(name) & during))
+
     outputs = [e.name for e in entries if e.causality == "output"]
     unknown_roles = {("output", "calculated"), ("calculatedParameter", "calculated")}
     initial = {e.name for e in entries if (e.causality, e.initial) in unknown_roles}
     initial |= {*starts, *model.derivatives}
     return {
-        "outputs": {name: sort(now(name) & during) for name in outputs},
-        "derivatives": {name: sort(now(name) & during) for name in model.derivatives},
-        "initial_unknowns": {name: sort(at_start(name)) for name in sort(frozenset(initial))},
-        "indicator_sources": {name: sort(now(name) & during) for name in model.residuals},
+        "outputs": {name: during_with_kinds(name) for name in outputs},
+        "derivatives": {name: during_with_kinds(name) for name in model.derivatives},
+        "initial_unknowns": {
+            name: tuple((known, DEPENDENT) for known in sort(at_start(name))) for name in sort(frozenset(initial))
+        },
+        "indicator_sources": {name: during_with_kinds(name) for name in model.residuals},
     }
 
 

@@ -10,6 +10,7 @@ from lxml import etree
 from ..ir.equations import EnumerationType
 from ..ir.models import Claims
 from ..ir.units import base_unit, conversion
+from .dependency_kinds import DEPENDENT
 
 LOG_CATEGORIES = {
     "logStatusError": "Errors: what was refused or failed, and what is allowed",
@@ -55,6 +56,12 @@ def add_log_categories(root: etree._Element) -> None:
     categories = etree.SubElement(root, "LogCategories")
     for name, description in LOG_CATEGORIES.items():
         etree.SubElement(categories, "Category", name=name, description=description)
+
+
+def dependencies(knowns: Sequence[tuple[str, str]], number: Mapping[str, int]) -> dict[str, str]:
+    """The attributes that say what an unknown depends on; kinds where they say more than that it does."""
+    kinds = {"dependenciesKind": " ".join(kind for _, kind in knowns)} if {k for _, k in knowns} - {DEPENDENT} else {}
+    return {"dependencies": " ".join(str(number[known]) for known, _ in knowns)} | kinds
 
 
 def to_bytes(root: etree._Element) -> bytes:

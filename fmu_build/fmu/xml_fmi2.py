@@ -8,7 +8,7 @@ from lxml import etree
 
 from ..ir.models import Claims
 from .interface import GENERATION_TOOL, Dependencies, Entry, Interface
-from .xml_common import add_claims, add_items, add_log_categories, add_units, to_bytes
+from .xml_common import add_claims, add_items, add_log_categories, add_units, dependencies, to_bytes
 
 CAPABILITIES = {
     "canGetAndSetFMUstate": "true",
@@ -91,5 +91,4 @@ def _unknowns(structure: etree._Element, tag: str, unknowns: Dependencies, index
     if unknowns:
         element = etree.SubElement(structure, tag)
         for name, knowns in unknowns.items():
-            numbers = " ".join(str(index[known]) for known in knowns)
-            etree.SubElement(element, "Unknown", index=str(index[name]), dependencies=numbers)
+            etree.SubElement(element, "Unknown", {"index": str(index[name])} | dependencies(knowns, index))

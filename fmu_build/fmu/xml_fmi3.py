@@ -8,7 +8,7 @@ from lxml import etree
 
 from ..ir.models import Claims
 from .interface import GENERATION_TOOL, Dependencies, Entry, Interface
-from .xml_common import add_claims, add_items, add_log_categories, add_units, to_bytes
+from .xml_common import add_claims, add_items, add_log_categories, add_units, dependencies, to_bytes
 
 CAPABILITIES = {
     "canGetAndSetFMUState": "true",
@@ -126,5 +126,4 @@ def _variable(listing: etree._Element, entry: Entry, reference: dict[str, int]) 
 
 def _unknowns(structure: etree._Element, tag: str, unknowns: Dependencies, reference: dict[str, int]) -> None:
     for name, knowns in unknowns.items():
-        numbers = " ".join(str(reference[known]) for known in knowns)
-        etree.SubElement(structure, tag, valueReference=str(reference[name]), dependencies=numbers)
+        etree.SubElement(structure, tag, {"valueReference": str(reference[name])} | dependencies(knowns, reference))
