@@ -53,7 +53,7 @@ $(READY_MADE)/fmi2/%.fmu: $(SOURCES)
 $(READY_MADE)/fmi3/%.fmu: $(SOURCES)
 	$(BUILD).$* -o $@ --fmi 3 --platforms all
 
-bench: $(READY) $(word 1,$(FMUS))  ## measure a run of figure 8 against limits and other ways (benchmarks/results.md; three minutes)
+bench: $(READY) $(word 1,$(FMUS))  ## measure a run of figure 8 against its arithmetic and other ways (benchmarks/results.md; three minutes)
 	$(BIN)/python -m benchmarks $(word 1,$(FMUS))
 
 stops: $(READY)  ## 200 stops from 30 m/s: steps, events, rest, way and energy of each (three minutes)
