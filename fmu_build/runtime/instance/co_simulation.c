@@ -8,7 +8,7 @@
 #include "validation.h"
 
 /* More steps than this between two communication points are taken for a run without end. */
-enum { MAX_STEPS = 1000000 };
+enum { MAX_INTEGRATOR_STEPS = 1000000 };
 
 Status instance_set_slopes(Instance *instance, const unsigned references[], size_t n, const double slopes[])
 {
@@ -148,9 +148,9 @@ bool stepping_integrate(Instance *instance, double target, const StepOptions *op
     const bool events_wait = s->use == CO_SIMULATION_WITH_EVENTS && options->may_return_early;
     for (int steps = 0; s->v.time < target && !s->event_waits && !discrete_has_ended(s); steps++) {
         const double start = s->v.time;
-        if (steps == MAX_STEPS) {
-            message_write(why, "%d integrator steps have led from the communication point to t = %s only", MAX_STEPS,
-                          quantity(start, "s").text);
+        if (steps == MAX_INTEGRATOR_STEPS) {
+            message_write(why, "%d integrator steps have led from the communication point to t = %s only",
+                          MAX_INTEGRATOR_STEPS, quantity(start, "s").text);
             return false;
         }
         if (!advance(instance, target, events_wait, why)) {

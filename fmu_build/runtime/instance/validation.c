@@ -9,9 +9,9 @@ static const double LOOSEST_TOLERANCE = 1e-2;
 static const double TIGHTEST_TOLERANCE = 1e-12;
 
 /* Callers sum up their communication points in various ways: equal times may differ by this much, relatively. */
-static const double SAME_TIME = 1e-9;
+static const double SAME_POINT = 1e-9;
 /* And so may inputs that are extrapolated. */
-static const double ROUNDING = 1e-9;
+static const double BEYOND_RANGE = 1e-9;
 
 bool valid_reference(unsigned reference, Message *why)
 {
@@ -138,7 +138,7 @@ bool valid_step(const State *s, double time, double size, Message *why)
                       quantity(size, "s").text);
         return false;
     }
-    if (!(fabs(time - s->v.time) <= SAME_TIME * fmax(1.0, fmax(fabs(s->v.time), size))) || !isfinite(time + size)) {
+    if (!(fabs(time - s->v.time) <= SAME_POINT * fmax(1.0, fmax(fabs(s->v.time), size))) || !isfinite(time + size)) {
         message_write(why, "communication point = %s is not allowed: the instance is at t = %s",
                       quantity(time, "s").text, quantity(s->v.time, "s").text);
         return false;
@@ -163,7 +163,7 @@ bool valid_ramp(const State *s, double end, Message *why)
         const VariableInfo *info = &variable_info[FIRST_INPUT + i];
         const double start = s->v.at[FIRST_INPUT + i];
         const double value = start + s->ramp.slope[i] * (end - s->v.time);
-        const double slack = ROUNDING * fmax(info->nominal, fmax(fabs(start), fabs(value)));
+        const double slack = BEYOND_RANGE * fmax(info->nominal, fmax(fabs(start), fabs(value)));
         if (!(value >= info->min - slack && value <= info->max + slack) || !isfinite(value)) {
             message_write(why, "%s would be %s at the end of the step: its range is %s to %s", info->name,
                           quantity(value, info->unit).text, quantity(info->min, info->unit).text,

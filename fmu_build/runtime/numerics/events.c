@@ -14,9 +14,9 @@ static const double BATCH_SHARE = 1e-3;
 /* Inside a step a residual that is zero but for rounding leaves the truth as it is: a drawbar that nothing loads stays
  * on its surface for a whole run, now on this side of it and now on the other by 1e-17 m, and each time would be an
  * event. What holds where a run is started, or where something has been set, is told by the sign alone. */
-static const double ROUNDING = 1e-12; /* of the relation's nominal value */
+static const double RESIDUAL_ROUNDING = 1e-12; /* of the relation's nominal value */
 
-static double band(int relation) { return ROUNDING * variable_info[relation_reference[relation]].nominal; }
+static double band(int relation) { return RESIDUAL_ROUNDING * variable_info[relation_reference[relation]].nominal; }
 
 static bool truth(int relation, double z, bool held) { return held ? z > -band(relation) : z > band(relation); }
 

@@ -8,7 +8,7 @@
  * about its square. */
 static const double LAST_STEP = 1e-9;
 static const double SHORTEST_DAMPING = 1e-9;
-enum { MAX_STEPS = 200 };
+enum { MAX_NEWTON_STEPS = 200 };
 
 /* Where the first search begins, in nominal values from the start values, if these lead nowhere: often the slopes are
  * zero there, as those of x^2 = 1 are at 0. */
@@ -166,8 +166,8 @@ static void solve_linear(const Loop *loop, Variables *v, const bool holds[], dou
 
 /* From the residuals of the iterated unknowns at v, the step that would make them zero; its size, relative to the
  * unknowns; NaN where something is not finite. */
-static double step(const Loop *loop, Variables *v, const bool holds[], const double a[], const unsigned pivots[],
-                   double result[])
+static double newton_step(const Loop *loop, Variables *v, const bool holds[], const double a[], const unsigned pivots[],
+                          double result[])
 {
     double size = 0.0;
     memset(result, 0, loop->size * sizeof result[0]);
@@ -186,14 +186,14 @@ static double step(const Loop *loop, Variables *v, const bool holds[], const dou
 
 /* Go along a step, from `from`, as far as the next step would be shorter (the natural monotonicity test of Deuflhard,
  * Newton Methods for Nonlinear Problems, section 3.3: it does not depend on how the residuals are scaled). */
-static bool advance(const Loop *loop, Variables *v, const bool holds[], const double a[], const unsigned pivots[],
-                    const double from[], const double along[], double size, double next[])
+static bool damped_step(const Loop *loop, Variables *v, const bool holds[], const double a[], const unsigned pivots[],
+                        const double from[], const double along[], double size, double next[])
 {
     for (double damping = 1.0; damping >= SHORTEST_DAMPING; damping *= 0.5) {
         for (unsigned i = 0; i < loop->n_iterated; i++) {
             v->at[loop->unknowns[i]] = from[i] - damping * along[i];
         }
-        const double next_size = step(loop, v, holds, a, pivots, next);
+        const double next_size = newton_step(loop, v, holds, a, pivots, next);
         if (next_size <= (1.0 - 0.25 * damping) * size || (size <= LAST_STEP && isfinite(next_size))) {
             return true;
         }
@@ -209,15 +209,15 @@ static bool newton(const Loop *loop, Variables *v, const bool holds[], double wo
     double *next = along + n;
     memset(along, 0, n * sizeof along[0]);
     loop->residuals(v, holds, along); /* the explicit unknowns, for the slopes */
-    for (int i = 0; i < MAX_STEPS; i++) {
+    for (int i = 0; i < MAX_NEWTON_STEPS; i++) {
         if (!make_factors(loop, v, holds, work, pivots)) {
             return false;
         }
-        const double size = step(loop, v, holds, work, pivots, along);
+        const double size = newton_step(loop, v, holds, work, pivots, along);
         for (unsigned j = 0; j < loop->n_iterated; j++) {
             from[j] = v->at[loop->unknowns[j]];
         }
-        if (!isfinite(size) || !advance(loop, v, holds, work, pivots, from, along, size, next)) {
+        if (!isfinite(size) || !damped_step(loop, v, holds, work, pivots, from, along, size, next)) {
             return false;
         }
         if (size <= LAST_STEP) {
