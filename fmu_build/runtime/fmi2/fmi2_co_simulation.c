@@ -1,41 +1,32 @@
 /* FMI 2.0 for Co-Simulation: steps, slopes of inputs and outputs. Every step is made at once, so all questions about
  * the status of one that is still going on are answered by fmi2Discard. */
+#include "co_simulation.h"
 #include "derivatives.h"
 #include "discrete.h"
 #include "fmi2_component.h"
-#include "co_simulation.h"
+#include "log.h"
 
 fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
                                        const fmi2Integer order[], const fmi2Real value[])
 {
-    Component *component = legal(c, SET_REAL_INPUT_DERIVATIVES);
-    Message message;
-    if (component == NULL) {
+    const bool given = nvr == 0 || (vr != NULL && order != NULL && value != NULL);
+    Message why;
+    if (!call_is_complete(c, SET_REAL_INPUT_DERIVATIVES, given)) {
         return fmi2Error;
-    }
-    if (nvr > 0 && (vr == NULL || order == NULL || value == NULL)) {
-        return null_argument(component, SET_REAL_INPUT_DERIVATIVES);
     }
     for (size_t i = 0; i < nvr; i++) {
         if (order[i] != 1) {
-            message_write(&message, "fmi2SetRealInputDerivatives: order %d is not offered, it must be 1", order[i]);
-            return report(component, STATUS_ERROR, &message);
+            message_write(&why, "fmi2SetRealInputDerivatives: order %d is not offered, it must be 1", order[i]);
+            return to_fmi2(log_error(c, &why));
         }
     }
-    return to_fmi2(instance_set_slopes(&component->instance, vr, nvr, value));
+    return to_fmi2(co_simulation_set_slopes(c, vr, nvr, value));
 }
 
 fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
                                         const fmi2Integer order[], fmi2Real value[])
 {
-    Component *component = legal(c, GET_REAL_OUTPUT_DERIVATIVES);
-    if (component == NULL) {
-        return fmi2Error;
-    }
-    if (nvr > 0 && (vr == NULL || order == NULL || value == NULL)) {
-        return null_argument(component, GET_REAL_OUTPUT_DERIVATIVES);
-    }
-    return to_fmi2(instance_time_derivatives(&component->instance, (References){vr, nvr}, order, value));
+    return to_fmi2(derivatives_by_time(c, (References){vr, nvr}, order, value, nvr));
 }
 
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint, fmi2Real communicationStepSize,
@@ -44,56 +35,45 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint, fmi2R
     (void)noSetFMUStatePriorToCurrentPoint;
     const StepOptions options = {0};
     StepResult result;
-    Component *component = legal(c, DO_STEP);
-    if (component == NULL) {
+    if (!call_is_legal(c, DO_STEP)) {
         return fmi2Error;
     }
-    const Status status =
-        instance_step(&component->instance, currentCommunicationPoint, communicationStepSize, &options, &result);
+    const Status status = co_simulation_step(c, currentCommunicationPoint, communicationStepSize, &options, &result);
     return status == STATUS_OK && result.ended ? fmi2Discard : to_fmi2(status); /* fmi2Terminated tells which it is */
 }
 
 /* The standard's answer to a question about a status that the unit cannot tell. */
-static fmi2Status no_status(Component *component, Function function)
+static fmi2Status no_status(fmi2Component c, int function)
 {
-    Message message;
-    if (component == NULL) {
-        return fmi2Error;
-    }
-    message_write(&message, "%s: this status is not available", function_name(function));
-    return report(component, STATUS_DISCARD, &message);
+    Message why;
+    message_write(&why, "%s: this status is not available", call_name(c, function));
+    return to_fmi2(log_discard(c, &why));
 }
 
 /* The last accepted integrator step counts, not the last communication step: that is as far as the values reach. */
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind s, fmi2Real *value)
 {
-    Component *component = legal(c, GET_REAL_STATUS);
-    if (component == NULL) {
+    const Instance *instance = c;
+    if (!call_is_complete(c, GET_REAL_STATUS, value != NULL)) {
         return fmi2Error;
     }
-    if (value == NULL) {
-        return null_argument(component, GET_REAL_STATUS);
-    }
     if (s != fmi2LastSuccessfulTime) {
-        return no_status(component, GET_REAL_STATUS);
+        return no_status(c, GET_REAL_STATUS);
     }
-    *value = component->instance.state.v.time;
+    *value = instance->state.v.time;
     return fmi2OK;
 }
 
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s, fmi2Boolean *value)
 {
-    Component *component = legal(c, GET_BOOLEAN_STATUS);
-    if (component == NULL) {
+    const Instance *instance = c;
+    if (!call_is_complete(c, GET_BOOLEAN_STATUS, value != NULL)) {
         return fmi2Error;
     }
-    if (value == NULL) {
-        return null_argument(component, GET_BOOLEAN_STATUS);
-    }
     if (s != fmi2Terminated) {
-        return no_status(component, GET_BOOLEAN_STATUS);
+        return no_status(c, GET_BOOLEAN_STATUS);
     }
-    *value = discrete_has_ended(&component->instance.state);
+    *value = discrete_has_ended(&instance->state);
     return fmi2OK;
 }
 
@@ -102,25 +82,25 @@ fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind s, fmi2Status *va
 {
     (void)s;
     (void)value;
-    return no_status(legal(c, GET_STATUS), GET_STATUS);
+    return call_is_legal(c, GET_STATUS) ? no_status(c, GET_STATUS) : fmi2Error;
 }
 
 fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind s, fmi2Integer *value)
 {
     (void)s;
     (void)value;
-    return no_status(legal(c, GET_INTEGER_STATUS), GET_INTEGER_STATUS);
+    return call_is_legal(c, GET_INTEGER_STATUS) ? no_status(c, GET_INTEGER_STATUS) : fmi2Error;
 }
 
 fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind s, fmi2String *value)
 {
     (void)s;
     (void)value;
-    return no_status(legal(c, GET_STRING_STATUS), GET_STRING_STATUS);
+    return call_is_legal(c, GET_STRING_STATUS) ? no_status(c, GET_STRING_STATUS) : fmi2Error;
 }
 
 fmi2Status fmi2CancelStep(fmi2Component c)
 {
-    (void)legal(c, CANCEL_STEP); /* never */
+    (void)call_is_legal(c, CANCEL_STEP); /* never */
     return fmi2Error;
 }

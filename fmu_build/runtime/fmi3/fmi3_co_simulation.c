@@ -1,30 +1,22 @@
 /* FMI 3.0 for Co-Simulation. */
 #include <math.h>
 
-#include "model_exchange.h"
+#include "co_simulation.h"
 #include "derivatives.h"
 #include "fmi3_component.h"
-#include "co_simulation.h"
+#include "model_exchange.h"
 
 fmi3Status fmi3EnterStepMode(fmi3Instance instance)
 {
-    Component *component = legal(instance, ENTER_STEP_MODE);
-    return component == NULL ? fmi3Error : to_fmi3(instance_leave_event_mode(&component->instance));
+    return call_is_legal(instance, ENTER_STEP_MODE) ? to_fmi3(model_exchange_leave_event_mode(instance)) : fmi3Error;
 }
 
 fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                                     size_t nValueReferences, const fmi3Int32 orders[], fmi3Float64 values[],
                                     size_t nValues)
 {
-    Component *component = legal_array(instance, GET_OUTPUT_DERIVATIVES, values, nValues, nValueReferences);
-    if (component == NULL) {
-        return fmi3Error;
-    }
-    if (nValues > 0 && (valueReferences == NULL || orders == NULL)) {
-        return null_argument(component, GET_OUTPUT_DERIVATIVES);
-    }
     const References variables = {valueReferences, nValueReferences};
-    return to_fmi3(instance_time_derivatives(&component->instance, variables, orders, values));
+    return to_fmi3(derivatives_by_time(instance, variables, orders, values, nValues));
 }
 
 static double ask(void *receiver, double time)
@@ -42,20 +34,18 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
                       fmi3Boolean *terminateSimulation, fmi3Boolean *earlyReturn, fmi3Float64 *lastSuccessfulTime)
 {
     (void)noSetFMUStatePriorToCurrentPoint;
-    Component *component = legal(instance, DO_STEP);
+    const Component *component = instance;
     StepResult result;
-    if (component == NULL) {
+    if (!call_is_complete(instance, DO_STEP,
+                          eventHandlingNeeded != NULL && terminateSimulation != NULL && earlyReturn != NULL &&
+                              lastSuccessfulTime != NULL)) {
         return fmi3Error;
-    }
-    if (eventHandlingNeeded == NULL || terminateSimulation == NULL || earlyReturn == NULL ||
-        lastSuccessfulTime == NULL) {
-        return null_argument(component, DO_STEP);
     }
     const StepOptions options = {.may_return_early = component->early_return_allowed,
                                  .intermediate = component->intermediate_update != NULL ? ask : NULL,
-                                 .receiver = component};
+                                 .receiver = instance};
     const Status status =
-        instance_step(&component->instance, currentCommunicationPoint, communicationStepSize, &options, &result);
+        co_simulation_step(instance, currentCommunicationPoint, communicationStepSize, &options, &result);
     *eventHandlingNeeded = result.event;
     *terminateSimulation = result.ended;
     *earlyReturn = result.early;

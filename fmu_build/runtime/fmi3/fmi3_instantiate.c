@@ -1,12 +1,13 @@
 /* FMI 3.0: making and freeing instances. */
-#include <stdlib.h>
 #include <string.h>
 
 #include "fmi3_component.h"
+#include "instance.h"
+#include "log.h"
 #include "validation.h"
 
 /* Why an instance cannot be made, NULL if it can. */
-static const char *obstacle(fmi3String name, fmi3String token)
+static const char *fmi3_obstacle(fmi3String name, fmi3String token)
 {
     if (name == NULL || name[strspn(name, " \t\r\n")] == '\0') {
         return "the instance needs a name";
@@ -21,15 +22,15 @@ static const char *obstacle(fmi3String name, fmi3String token)
 static void refuse(fmi3InstanceEnvironment environment, fmi3LogMessageCallback log_message, const char *why)
 {
     if (log_message != NULL) {
-        log_message(environment, fmi3Error, category_name[LOG_ERROR], why);
+        log_message(environment, fmi3Error, log_category_name[LOG_ERROR], why);
     }
 }
 
 static Component *instantiate(Use use, fmi3String name, fmi3String token, fmi3Boolean logging_on,
                               fmi3InstanceEnvironment environment, fmi3LogMessageCallback log_message)
 {
-    const char *why = obstacle(name, token);
-    Component *component = why == NULL ? component_create(use, environment, log_message) : NULL;
+    const char *why = fmi3_obstacle(name, token);
+    Component *component = why == NULL ? fmi3_component_create(use, environment, log_message) : NULL;
     if (component == NULL) {
         refuse(environment, log_message, why != NULL ? why : "there is no memory for an instance");
         return NULL;
@@ -96,11 +97,4 @@ fmi3Instance fmi3InstantiateScheduledExecution(fmi3String instanceName, fmi3Stri
     return NULL;
 }
 
-/* An instance that is in the middle of a step, in its caller's hands, is not freed. */
-void fmi3FreeInstance(fmi3Instance instance)
-{
-    Component *component = instance;
-    if (component != NULL && component->instance.state.phase != UPDATING) {
-        free(component);
-    }
-}
+void fmi3FreeInstance(fmi3Instance instance) { instance_free(instance); }

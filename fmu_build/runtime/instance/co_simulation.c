@@ -1,21 +1,19 @@
 #include "co_simulation.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "coupling.h"
 #include "discrete.h"
+#include "log.h"
+#include "settle.h"
 #include "validation.h"
 
-/* More steps than this between two communication points are taken for a run without end. */
-enum { MAX_INTEGRATOR_STEPS = 1000000 };
-
-Status instance_set_slopes(Instance *instance, const unsigned references[], size_t n, const double slopes[])
+Status co_simulation_set_slopes(Instance *instance, const unsigned references[], size_t n, const double slopes[])
 {
     Message why;
     for (size_t i = 0; i < n; i++) {
         if (!valid_slope(references[i], slopes[i], &why)) {
-            return instance_refuse(instance, &why);
+            return log_error(instance, &why);
         }
     }
     for (size_t i = 0; i < n; i++) {
@@ -24,201 +22,60 @@ Status instance_set_slopes(Instance *instance, const unsigned references[], size
     return STATUS_OK;
 }
 
-static void log_events(const Instance *instance, const Point *arrival)
+/* Whether a step can be asked for. */
+static bool can_step(Instance *instance, double time, double size, Message *why)
 {
-    for (int i = 0; i < N_RELATIONS && instance->logs[LOG_EVENT]; i++) {
-        if (arrival->holds[i] != instance->state.holds[i]) {
-            Message event;
-            message_write(&event, "%s becomes %s at t = %.17g s", relation_text[i],
-                          arrival->holds[i] ? "true" : "false", arrival->time);
-            instance_log(instance, LOG_EVENT, STATUS_OK, &event);
-        }
+    const State *s = &instance->state;
+    if (!valid_step(s, time, size, why) || !valid_ramp(s, time + size, why) || !settle_truths(instance, why)) {
+        return false;
     }
-}
-
-/* At an event that waits for the caller the old truths go on to hold. */
-static void commit(State *s, const Point *arrival, bool event, bool waits)
-{
-    s->v.time = arrival->time;
-    memcpy(&s->v.at[FIRST_STATE], arrival->state, N_STATES * sizeof(double));
-    ramp_apply(&s->ramp, &s->v);
-    if (event) {
-        discrete_remember(s);
-    }
-    memcpy(s->next_holds, arrival->holds, sizeof s->next_holds);
-    s->event_waits = waits;
-    if (!waits) {
-        memcpy(s->holds, arrival->holds, sizeof s->holds);
-    }
-}
-
-/* The end that the caller wants, seen at an intermediate point. */
-static double intermediate(Instance *instance, const StepOptions *options)
-{
-    State *s = &instance->state;
-    s->phase = UPDATING;
-    const double end = options->intermediate(options->receiver, s->v.time);
-    s->phase = STEPPING;
-    return options->may_return_early ? fmax(end, s->v.time) : (double)INFINITY;
-}
-
-/* To a time on the path of the course. */
-static void follow(State *s, double time)
-{
-    const Path *path = &s->course.path;
-    s->v.time = time;
-    rodas_dense(path, (time - path->time) / path->length, &s->v.at[FIRST_STATE]);
-    ramp_apply(&s->ramp, &s->v);
-}
-
-/* One integrator step from where the instance is, at most to `limit`. */
-static bool make_step(Instance *instance, double limit, Message *why)
-{
-    State *s = &instance->state;
-    Course *course = &s->course;
-    if (!integrator_step(&s->integrator, &instance->rodas, &s->v, s->holds, &s->ramp, limit, s->tolerance,
-                         &course->arrival, why) ||
-        !valid_states(&course->arrival, s->tolerance, why)) {
-        rodas_back(&instance->rodas, &s->v);
+    if (discrete_has_ended(s)) {
+        message_write(why, "no step can be made from t = %s: the model has ended the simulation there",
+                      quantity(s->v.time, "s").text);
         return false;
     }
     return true;
 }
 
-/* Begin a step. While nothing is set it may lead beyond the communication point, so that its length is up to its error
- * alone, but not beyond the next time event. It is not worth while where inputs change from step to step, nor with a
- * coupling, whose input always does. */
-static bool set_out(Instance *instance, double target, double next, Message *why)
-{
-    State *s = &instance->state;
-    Course *course = &s->course;
-    const bool may_pass = N_COUPLINGS == 0 && s->calm && !s->ramp.moves && s->stop > target;
-    /* What makes a longer step fail may never happen. */
-    if (!(may_pass && make_step(instance, fmin(s->stop, next), why)) && !make_step(instance, target, why)) {
-        return false;
-    }
-    course->open = course->arrival.time > target;
-    if (course->open && N_RELATIONS == 0) { /* otherwise the search for events has done so */
-        rodas_bend(&instance->rodas);
-    }
-    course->path = instance->rodas.path;
-    return true;
-}
-
-/* The end of the course has been reached, which began at `start` or before: an event may lie there. */
-static bool arrive(Instance *instance, double start, double next, bool events_wait, Message *why)
-{
-    State *s = &instance->state;
-    const Point *arrival = &s->course.arrival;
-    const bool event = arrival->event || arrival->time >= next;
-    s->course.open = false;
-    if (arrival->event) {
-        log_events(instance, arrival);
-        s->chattering = events_too_dense(&s->density, arrival->time, s->holds, arrival->holds, why);
-        if (s->chattering) {
-            follow(s, start);
-            return false;
-        }
-    }
-    commit(s, arrival, event, event && events_wait);
-    return discrete_check(instance, why) && (!event || events_wait || discrete_event(instance, why));
-}
-
-/* Go on along the course, at most to target. */
-static bool advance(Instance *instance, double target, bool events_wait, Message *why)
+/* The step, the coupling's share in it included. False: why it has not arrived. */
+static bool make_way(Instance *instance, double target, double size, const StepOptions *options, Message *why)
 {
     State *s = &instance->state;
     const double start = s->v.time;
-    const double next = discrete_next_time(s);
-    const double end = discrete_is_due_at(target, next) ? next : target; /* exactly there, for the sake of truths */
-    s->current = false;
-    if (!s->course.open && !set_out(instance, end, next, why)) {
-        return false;
+    const bool begun = coupling_begin(instance, size, why);
+    ramp_begin(&s->ramp, &s->v);
+    s->course.open = s->course.open && !s->ramp.moves;
+    bool arrived = begun && advance_to(instance, target, options, why);
+    ramp_end(&s->ramp);
+    settle_outputs(s); /* the caller may have read them in between */
+    if (s->course.open && !events_hold(&s->v, s->holds)) {
+        arrived = advance_again(instance, start, target, options, why);
+        settle_outputs(s);
     }
-    if (s->course.open && s->course.arrival.time > end) {
-        follow(s, end);
-        return discrete_check(instance, why);
+    if (arrived) {
+        coupling_end(instance, start);
     }
-    return arrive(instance, start, next, events_wait, why);
+    return arrived;
 }
 
-bool stepping_integrate(Instance *instance, double target, const StepOptions *options, Message *why)
-{
-    State *s = &instance->state;
-    const bool events_wait = s->use == CO_SIMULATION_WITH_EVENTS && options->may_return_early;
-    for (int steps = 0; s->v.time < target && !s->event_waits && !discrete_has_ended(s); steps++) {
-        const double start = s->v.time;
-        if (steps == MAX_INTEGRATOR_STEPS) {
-            message_write(why, "%d integrator steps have led from the communication point to t = %s only",
-                          MAX_INTEGRATOR_STEPS, quantity(start, "s").text);
-            return false;
-        }
-        if (!advance(instance, target, events_wait, why)) {
-            return false;
-        }
-        if (options->intermediate != NULL && s->v.time > start) {
-            target = fmin(target, intermediate(instance, options));
-        }
-    }
-    return true;
-}
-
-/* The course has overlooked that a surface is crossed: from `start`, or where it begins, step no further than target.
- */
-static bool step_again(Instance *instance, double start, double target, const StepOptions *options, Message *why)
-{
-    State *s = &instance->state;
-    follow(s, fmax(start, s->course.path.time));
-    s->calm = s->course.open = false;
-    return stepping_integrate(instance, target, options, why);
-}
-
-/* All of v at the end of a step; the caller may have read them in between. */
-static void show(State *s)
-{
-    if (!s->current) {
-        model_outputs(&s->v, s->holds);
-        coupling_show(s);
-        s->current = true;
-    }
-}
-
-Status instance_step(Instance *instance, double time, double size, const StepOptions *options, StepResult *result)
+Status co_simulation_step(Instance *instance, double time, double size, const StepOptions *options, StepResult *result)
 {
     State *s = &instance->state;
     const double target = time + size;
     Message why;
     *result = (StepResult){.time = s->v.time};
-    if (!valid_step(s, time, size, &why) || !valid_ramp(s, target, &why) || !instance_settle(instance, &why)) {
-        return instance_refuse(instance, &why);
-    }
-    if (discrete_has_ended(s)) {
-        message_write(&why, "no step can be made from t = %s: the model has ended the simulation there",
-                      quantity(s->v.time, "s").text);
-        return instance_refuse(instance, &why);
+    if (!can_step(instance, time, size, &why)) {
+        return log_error(instance, &why);
     }
     if (!s->after_event) {
         events_watch(&s->density, s->v.time, target);
     }
-    const double start = s->v.time;
-    const bool begun = coupling_begin(instance, size, &why);
-    ramp_begin(&s->ramp, &s->v);
-    s->course.open = s->course.open && !s->ramp.moves;
-    bool arrived = begun && stepping_integrate(instance, target, options, &why);
-    ramp_end(&s->ramp);
-    show(s);
-    if (s->course.open && !events_hold(&s->v, s->holds)) {
-        arrived = step_again(instance, start, target, options, &why);
-        show(s);
-    }
-    if (arrived) {
-        coupling_end(instance, start);
-    }
+    const bool arrived = make_way(instance, target, size, options, &why);
     s->after_event = s->event_waits;
     s->calm = true;
     if (!arrived || !valid_variables(&s->v, &why)) {
         s->phase = FAILED;
-        return s->chattering ? instance_discard(instance, &why) : instance_refuse(instance, &why);
+        return s->chattering ? log_discard(instance, &why) : log_error(instance, &why);
     }
     *result = (StepResult){.event = s->event_waits,
                            .early = s->v.time < target && (options->may_return_early || !discrete_has_ended(s)),

@@ -5,9 +5,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "advance.h"
+#include "coupling_values.h"
 #include "finite.h"
 #include "lu.h"
-#include "co_simulation.h"
+#include "settle.h"
 
 /* A change of u over a step so much shorter than the next one is mostly rounding: the slope stays what it was. */
 static const double TELLING = 1e-6;
@@ -17,30 +19,6 @@ static const double TELLING = 1e-6;
 static const double MEMORY = 0.9;
 
 static double *across(State *s) { return &s->v.at[coupling_info.across]; }
-
-void coupling_note(State *s, unsigned reference)
-{
-    s->coupling.is_set = s->coupling.is_set || reference == coupling_info.across;
-}
-
-void coupling_show(State *s)
-{
-    const Coupling *c = &s->coupling;
-    if (c->stepped) { /* until then they are what the model's equations make them */
-        s->v.at[coupling_info.mean] = c->mean;
-        s->v.at[coupling_info.hold] = c->hold;
-        s->v.at[coupling_info.energy] = c->energy;
-    }
-}
-
-void coupling_still(const State *s, Variables *derivatives)
-{
-    if (s->coupling.stepped) {
-        derivatives->at[coupling_info.mean] = 0.0;
-        derivatives->at[coupling_info.hold] = 0.0;
-        derivatives->at[coupling_info.energy] = 0.0;
-    }
-}
 
 static void begin_first(State *s)
 {
@@ -123,7 +101,7 @@ bool coupling_begin(Instance *instance, double size, Message *why)
         s->settled = s->current = false;
         integrator_discontinuity(&s->integrator);
     }
-    if (!instance_update(instance, why)) {
+    if (!settle_variables(instance, why)) {
         return false;
     }
     if (!c->stepped) {
@@ -141,7 +119,7 @@ bool coupling_begin(Instance *instance, double size, Message *why)
     }
     incline(s, size);
     c->next_start = *across(s);
-    return instance_settle(instance, why);
+    return settle_truths(instance, why);
 }
 
 /* The mean over one more step as long as the last one, with the inputs moving on: the state goes there and back. */
@@ -161,7 +139,7 @@ static double predict(Instance *instance)
     s->ramp.over = false;
     ramp_begin(&s->ramp, &s->v);
     events_watch(&s->density, start, start + s->coupling.size);
-    if (stepping_integrate(instance, start + s->coupling.size, &alone, &why) && s->v.time > start) {
+    if (advance_to(instance, start + s->coupling.size, &alone, &why) && s->v.time > start) {
         mean = (s->v.at[coupling_info.impulse] - impulse) / (s->v.time - start);
     }
     instance->logs[LOG_EVENT] = logs;
@@ -190,7 +168,7 @@ void coupling_end(Instance *instance, double start)
         c->stepped = c->pending = true;
         c->is_set = false;
     }
-    coupling_show(s);
+    coupling_values_show(s);
 }
 
 #endif

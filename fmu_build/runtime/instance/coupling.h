@@ -9,12 +9,9 @@
 #ifndef COUPLING_H
 #define COUPLING_H
 
-#include "instance.h"
+#include "state.h"
 
 #if N_COUPLINGS > 0
-
-/* A variable has been set. */
-void coupling_note(State *s, unsigned reference);
 
 /* Before a step of `size`: settle the account of the last one, now that u is known at its end, and give u a slope.
  * False: why the instance cannot be there. */
@@ -23,19 +20,7 @@ bool coupling_begin(Instance *instance, double size, Message *why);
 /* After a step that began at `start`, with all variables current. */
 void coupling_end(Instance *instance, double start);
 
-/* To be called whenever the outputs have been calculated: puts those of the coupling in their place. */
-void coupling_show(State *s);
-
-/* The derivatives by time of those outputs are 0: they are given once for a step, whatever the flow does meanwhile. */
-void coupling_still(const State *s, Variables *derivatives);
-
 #else
-
-static inline void coupling_note(State *s, unsigned reference)
-{
-    (void)s;
-    (void)reference;
-}
 
 static inline bool coupling_begin(Instance *instance, double size, Message *why)
 {
@@ -49,14 +34,6 @@ static inline void coupling_end(Instance *instance, double start)
 {
     (void)instance;
     (void)start;
-}
-
-static inline void coupling_show(State *s) { (void)s; }
-
-static inline void coupling_still(const State *s, Variables *derivatives)
-{
-    (void)s;
-    (void)derivatives;
 }
 
 #endif

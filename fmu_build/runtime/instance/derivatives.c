@@ -2,7 +2,9 @@
 
 #include <math.h>
 
-#include "coupling.h"
+#include "coupling_values.h"
+#include "log.h"
+#include "settle.h"
 #include "validation.h"
 
 static bool at_start(const State *s) { return (s->phase & (INSTANTIATED | INITIALIZING)) != 0; }
@@ -61,30 +63,34 @@ static bool harvest(const Variables *d, References references, double values[], 
     return true;
 }
 
-Status instance_directional(Instance *instance, References unknown, References known, const double seed[],
-                            double sensitivity[])
+/* One seed and one sensitivity for each variable of the two lists. */
+static bool has_lists(Instance *instance, int function, References from, const double seed[], size_t n_seed,
+                      References to, const double sensitivity[], size_t n_sensitivity)
 {
-    const State *s = &instance->state;
-    Variables d = {.at = {0.0}};
-    Message why;
-    if (!valid_lists(s, unknown, known, &why) || !plant(&d, known, seed, &why) || !instance_update(instance, &why)) {
-        return instance_refuse(instance, &why);
-    }
-    model_tangent(&s->v, s->holds, at_start(s), &d);
-    return harvest(&d, unknown, sensitivity, &why) ? STATUS_OK : instance_refuse(instance, &why);
+    return call_has_array(instance, function, seed, n_seed, from.n) &&
+           call_has_length(instance, function, n_sensitivity, to.n) &&
+           call_has_arguments(instance, function,
+                              (from.n == 0 || from.references != NULL) &&
+                                  (to.n == 0 || (to.references != NULL && sensitivity != NULL)));
 }
 
-Status instance_adjoint(Instance *instance, References unknown, References known, const double seed[],
-                        double sensitivity[])
+Status derivatives_chain(Instance *instance, int function, References unknown, References known, const double seed[],
+                         size_t n_seed, double sensitivity[], size_t n_sensitivity)
 {
-    const State *s = &instance->state;
+    const bool forward = function == GET_DIRECTIONAL_DERIVATIVE;
+    const References from = forward ? known : unknown;
+    const References to = forward ? unknown : known;
     Variables d = {.at = {0.0}};
     Message why;
-    if (!valid_lists(s, unknown, known, &why) || !plant(&d, unknown, seed, &why) || !instance_update(instance, &why)) {
-        return instance_refuse(instance, &why);
+    if (!has_lists(instance, function, from, seed, n_seed, to, sensitivity, n_sensitivity)) {
+        return STATUS_ERROR;
     }
-    model_adjoint(&s->v, s->holds, at_start(s), &d);
-    return harvest(&d, known, sensitivity, &why) ? STATUS_OK : instance_refuse(instance, &why);
+    const State *s = &instance->state;
+    if (!valid_lists(s, unknown, known, &why) || !plant(&d, from, seed, &why) || !settle_variables(instance, &why)) {
+        return log_error(instance, &why);
+    }
+    (forward ? model_tangent : model_adjoint)(&s->v, s->holds, at_start(s), &d);
+    return harvest(&d, to, sensitivity, &why) ? STATUS_OK : log_error(instance, &why);
 }
 
 static bool valid_orders(References variables, const int orders[], Message *why)
@@ -102,14 +108,19 @@ static bool valid_orders(References variables, const int orders[], Message *why)
     return true;
 }
 
-Status instance_time_derivatives(Instance *instance, References variables, const int orders[], double values[])
+Status derivatives_by_time(Instance *instance, References variables, const int orders[], double values[],
+                           size_t n_values)
 {
-    const State *s = &instance->state;
     Variables d = {.at = {0.0}};
     Message why;
-    if (!valid_orders(variables, orders, &why) || !instance_update(instance, &why)) {
-        return instance_refuse(instance, &why);
+    if (!call_has_values(instance, GET_OUTPUT_DERIVATIVES, variables.references, variables.n, values, n_values) ||
+        !call_has_arguments(instance, GET_OUTPUT_DERIVATIVES, n_values == 0 || orders != NULL)) {
+        return STATUS_ERROR;
     }
+    if (!valid_orders(variables, orders, &why) || !settle_variables(instance, &why)) {
+        return log_error(instance, &why);
+    }
+    const State *s = &instance->state;
     d.time = 1.0;
     for (int i = 0; i < N_STATES; i++) {
         d.at[FIRST_STATE + i] = s->v.at[FIRST_DERIVATIVE + i];
@@ -118,8 +129,8 @@ Status instance_time_derivatives(Instance *instance, References variables, const
         d.at[FIRST_INPUT + i] = s->ramp.slope[i];
     }
     model_tangent(&s->v, s->holds, false, &d);
-    coupling_still(s, &d);
-    return harvest(&d, variables, values, &why) ? STATUS_OK : instance_refuse(instance, &why);
+    coupling_values_still(s, &d);
+    return harvest(&d, variables, values, &why) ? STATUS_OK : log_error(instance, &why);
 }
 
 static bool is_independent(VariableKind kind, bool start)
@@ -128,14 +139,14 @@ static bool is_independent(VariableKind kind, bool start)
 }
 
 /* A seed that is not a number gets, by the chain rule, to all that the variable depends on, and nowhere else. */
-Status instance_dependencies(Instance *instance, unsigned reference, unsigned independents[], size_t room,
-                             size_t *count)
+Status derivatives_dependencies(Instance *instance, unsigned reference, unsigned independents[], size_t room,
+                                size_t *count)
 {
     const State *s = &instance->state;
     Variables d = {.at = {0.0}};
     Message why;
-    if (!valid_reference(reference, &why) || !instance_update(instance, &why)) {
-        return instance_refuse(instance, &why);
+    if (!valid_reference(reference, &why) || !settle_variables(instance, &why)) {
+        return log_error(instance, &why);
     }
     d.at[reference] = (double)NAN;
     model_adjoint(&s->v, s->holds, at_start(s), &d);

@@ -6,28 +6,27 @@
 #ifndef DERIVATIVES_H
 #define DERIVATIVES_H
 
-#include "instance.h"
+#include "calls.h"
 
 typedef struct {
     const unsigned *references;
     size_t n;
 } References;
 
-/* seed: one number for each known; sensitivity: one for each unknown. */
-Status instance_directional(Instance *instance, References unknown, References known, const double seed[],
-                            double sensitivity[]);
+/* The call `function`, with what it has to refuse. GET_DIRECTIONAL_DERIVATIVE: one seed for each known, one sensitivity
+ * for each unknown; any other is the adjoint one, with a seed for each unknown and a sensitivity for each known. */
+Status derivatives_chain(Instance *instance, int function, References unknown, References known, const double seed[],
+                         size_t n_seed, double sensitivity[], size_t n_sensitivity);
 
-/* seed: one number for each unknown; sensitivity: one for each known. */
-Status instance_adjoint(Instance *instance, References unknown, References known, const double seed[],
-                        double sensitivity[]);
-
-/* First derivatives with respect to time, along the solution; inputs move as in the step that has ended, or as has been
- * set for the next one. orders: of each, must be 1. */
-Status instance_time_derivatives(Instance *instance, References variables, const int orders[], double values[]);
+/* The call GET_OUTPUT_DERIVATIVES, with what it has to refuse: first derivatives with respect to time, along the
+ * solution; inputs move as in the step that has ended, or as has been set for the next one. orders: of each, must be
+ * 1. */
+Status derivatives_by_time(Instance *instance, References variables, const int orders[], double values[],
+                           size_t n_values);
 
 /* What a variable depends on, by the structure of the equations: the first `room` references, and how many there are.
  * At the start these are settable start values, parameters, inputs and time; later states, inputs and time. */
-Status instance_dependencies(Instance *instance, unsigned reference, unsigned independents[], size_t room,
-                             size_t *count);
+Status derivatives_dependencies(Instance *instance, unsigned reference, unsigned independents[], size_t room,
+                                size_t *count);
 
 #endif

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "event_time.h"
+#include "log.h"
 #include "validation.h"
 
 /* Times at one event that discrete variables may change, one after another, before that is taken to be without end. */
@@ -102,8 +103,8 @@ static bool look_at(Instance *instance, int first, int last, Message *why)
                 *why = at;
                 return false;
             }
-            instance_log(instance, checks[i].kind == WARN ? LOG_WARNING : LOG_EVENT,
-                         checks[i].kind == WARN ? STATUS_WARNING : STATUS_OK, &at);
+            log_write(instance, checks[i].kind == WARN ? LOG_WARNING : LOG_EVENT,
+                      checks[i].kind == WARN ? STATUS_WARNING : STATUS_OK, &at);
             s->discrete.ended = s->discrete.ended || checks[i].kind == END;
         }
         s->discrete.warned[i] = violated;
@@ -235,7 +236,7 @@ void discrete_terminate(Instance *instance)
     Message why;
     s->v.at[TERMINAL] = 1.0;
     if (!discrete_event(instance, &why)) {
-        instance_log(instance, LOG_WARNING, STATUS_WARNING, &why);
+        log_write(instance, LOG_WARNING, STATUS_WARNING, &why);
     }
 }
 

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "instance.h"
+#include "state.h"
 
 #if HAS_EVENTS
 

@@ -1,128 +1,17 @@
-/* One instance of the model, in the terms of no particular FMI version. The facades translate to and from it.
+/* The life of an instance, from creation to its end, and its variables. The facades translate to and from it.
  *
- * Everything that changes during a simulation is in State, which holds no pointers: a snapshot is a copy of it.
- * Every function that can fail says why through the log callback, and changes nothing if it refuses its arguments.
- *
- * instance.c has what every simulation needs; discrete.h is about what happens at events, stepping.h is about
- * Co-Simulation, coupling.h about what it adds between units, continuous.h about event mode and Model Exchange,
- * derivatives.h about partial derivatives, snapshot.h about saved states. */
+ * Every function that can fail says why through the log, and changes nothing if it refuses its arguments. */
 #ifndef INSTANCE_H
 #define INSTANCE_H
 
-#include <stddef.h>
-
-#include "events.h"
-#include "integrator.h"
-#include "message.h"
-#include "model.h"
-#include "ramp.h"
-
-/* Bits, so that a set of phases is a mask. */
-typedef enum {
-    INSTANTIATED = 1,
-    INITIALIZING = 2,
-    STEPPING = 4,    /* Co-Simulation: at a communication point */
-    UPDATING = 8,    /* Co-Simulation: in the caller's callback between two integrator steps */
-    EVENT_MODE = 16, /* truths follow what is set */
-    CONTINUOUS = 32, /* Model Exchange: truths are held while the caller integrates */
-    TERMINATED = 64,
-    FAILED = 128 /* a step could not be made; what is left is the last good point, for reading only, until reset */
-} Phase;
-
-typedef enum { CO_SIMULATION, CO_SIMULATION_WITH_EVENTS, MODEL_EXCHANGE } Use;
-
-/* DISCARD: the model cannot be evaluated there; the caller may try another point. */
-typedef enum { STATUS_OK, STATUS_WARNING, STATUS_DISCARD, STATUS_ERROR } Status;
-
-typedef enum { LOG_ERROR, LOG_WARNING, LOG_EVENT, N_LOG_CATEGORIES } LogCategory;
-
-extern const char *const category_name[N_LOG_CATEGORIES];
-
-/* The category of that name; N_LOG_CATEGORIES if there is none. */
-int category_index(const char *name);
-
-typedef void LogFunction(void *receiver, LogCategory category, Status status, const char *message);
-
-/* What a coupling remembers, see coupling.h: at first of the last step that has led on in time. */
-typedef struct {
-    bool stepped; /* there has been one */
-    bool pending; /* u at its end is not known yet, nor what the coupling has made of it */
-    bool moves;   /* the slope of u in it was the unit's own, so that the end is not a value that the caller has set */
-    bool is_set;  /* u has been set since */
-    double size;  /* its length */
-    double span;  /* the time before it from which the slope was taken: 0: it was given, INFINITY: there was none */
-    double start; /* u at its start */
-    double expected; /* u at its end, as the slope has it */
-    double applied;  /* what the master has applied over it */
-    double work;     /* at its start */
-    double impulse;  /* at its end, as are those that follow */
-    double through;
-    double mean;
-    double hold;
-    double owed; /* the impulse transmitted so far less the one applied */
-    double energy;
-    double period;     /* the longest of the last steps */
-    double next_start; /* u at the start of the step that is being made */
-} Coupling;
-
-/* An integrator step that leads beyond the communication point. As long as nothing is set, the next communication
- * points lie on its path. */
-typedef struct {
-    bool open;
-    Path path;
-    Point arrival;
-} Course;
-
-#if HAS_EVENTS
-/* What discrete.h needs beside variables. */
-typedef struct {
-    double ticks[AT_LEAST_ONE(N_SAMPLES)]; /* the number of the next tick */
-    bool warned[AT_LEAST_ONE(N_CHECKS)];   /* its warning has been given */
-    bool pending;                          /* there is an event to handle before time goes on */
-    bool states_changed;                   /* by an event, and the caller does not know yet */
-    bool ended;                            /* the model has asked to end the simulation */
-} Discrete;
-#endif
-
-typedef struct {
-    Use use;
-    Phase phase;
-    bool settled; /* parameters, start values and holds follow from what has been set */
-    bool current; /* and so do all of v */
-    double tolerance;
-    double stop; /* INFINITY: not given */
-    Variables v;
-    bool holds[AT_LEAST_ONE(N_RELATIONS)];
-    bool event_waits; /* the last step has ended at an event, which the caller has still to handle */
-    bool after_event; /* the last step has ended so */
-    bool next_holds[AT_LEAST_ONE(N_RELATIONS)]; /* the truths behind it; otherwise those that are held */
-    EventDensity density;
-    bool chattering; /* a step has been given up because of too many events */
-    Ramp ramp;
-    Integrator integrator;
-    bool calm; /* nothing has been set since the last step */
-    Course course;
-#if HAS_EVENTS
-    Discrete discrete;
-#endif
-#if N_COUPLINGS > 0
-    Coupling coupling;
-#endif
-} State;
-
-typedef struct {
-    State state;
-    Rodas rodas; /* room for the work inside a step: nothing in it survives the step */
-    LogFunction *log;
-    void *receiver;
-    bool logs[N_LOG_CATEGORIES]; /* which categories the receiver gets */
-#if N_COUPLINGS > 0
-    State present; /* kept here while a coupling lets the state run ahead */
-#endif
-} Instance;
+#include "state.h"
 
 /* Fills in *instance; errors and warnings are logged, events are not. */
-void instance_create(Instance *instance, Use use, LogFunction *log, void *receiver);
+void instance_create(Instance *instance, Use use, const Caller *caller);
+
+/* Give back the caller's memory, of which the instance is the beginning. One that is in the middle of a step, in its
+ * caller's hands, is not freed. */
+void instance_free(Instance *instance);
 
 /* Back to where instance_create left it, but for the log. */
 void instance_reset(Instance *instance);
@@ -136,23 +25,5 @@ Status instance_terminate(Instance *instance);
 /* Values by value reference: the index in Variables. All must be of that type. */
 Status instance_get(Instance *instance, ValueType type, const unsigned references[], size_t n, double values[]);
 Status instance_set(Instance *instance, ValueType type, const unsigned references[], size_t n, const double values[]);
-
-/* For the other files of the runtime. */
-
-/* What has been set makes a difference: the integrator cannot go on as before. */
-void instance_disturb(State *s);
-
-/* Calculate what depends on what has been set: the truths, or all variables. False: why. */
-bool instance_settle(Instance *instance, Message *why);
-bool instance_update(Instance *instance, Message *why);
-
-/* Values in v->at[first], ... to the caller; discarded if one of them is not finite. */
-Status instance_copy(const Instance *instance, int first, int n, double values[]);
-
-void instance_log(const Instance *instance, LogCategory category, Status status, const Message *message);
-
-/* Log, and return STATUS_ERROR or STATUS_DISCARD. */
-Status instance_refuse(const Instance *instance, const Message *why);
-Status instance_discard(const Instance *instance, const Message *why);
 
 #endif

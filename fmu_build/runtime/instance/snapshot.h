@@ -1,32 +1,27 @@
-/* Saved states: kept in memory, or as bytes that another process with the same model can read. */
+/* Saved states: kept in the caller's memory, or as bytes that another process with the same model can read.
+ *
+ * Each function is one of the standard's, with what it has to refuse; a saved state is known to its caller by its
+ * address alone. */
 #ifndef SNAPSHOT_H
 #define SNAPSHOT_H
 
-#include <stdint.h>
+#include "calls.h"
 
-#include "instance.h"
+/* Into what *slot points to, or, if that is NULL, into new memory. */
+Status snapshot_get(Instance *instance, void **slot);
 
-typedef struct {
-    uint64_t magic; /* kind and version of the layout; reads differently in another byte order */
-    char token[(sizeof MODEL_TOKEN + 7) / 8 * 8]; /* so that there are no gaps */
-    uint64_t size;                                /* of a Snapshot */
-    uint64_t checksum;                            /* of the state; of use in bytes only */
-} Stamp;
+/* Refused if it was taken of an instance that is used in another way. */
+Status snapshot_set(Instance *instance, const void *saved);
 
-typedef struct {
-    Stamp stamp;
-    State state;
-} Snapshot;
+/* Freeing nothing is fine, as with free. */
+Status snapshot_free(Instance *instance, void **slot);
 
-void snapshot_take(const Instance *instance, Snapshot *snapshot);
+/* How many bytes snapshot_write needs. */
+Status snapshot_size(Instance *instance, const void *saved, size_t *size);
+Status snapshot_write(Instance *instance, const void *saved, void *bytes, size_t size);
 
-/* Refused if the snapshot was taken of an instance that is used in another way. */
-Status snapshot_restore(Instance *instance, const Snapshot *snapshot);
-
-/* bytes: sizeof(Snapshot) of them. */
-void snapshot_write(const Snapshot *snapshot, void *bytes);
-
-/* Bytes to a snapshot; refused, with nothing written, if they are not one of this very model, or damaged. */
-Status snapshot_read(const Instance *instance, const void *bytes, size_t size, Snapshot *snapshot);
+/* Bytes to a saved state, in *slot as above; refused, with nothing written, if they are not one of this very model, or
+ * damaged. */
+Status snapshot_read(Instance *instance, const void *bytes, size_t size, void **slot);
 
 #endif

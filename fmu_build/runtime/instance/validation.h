@@ -2,7 +2,7 @@
 #ifndef VALIDATION_H
 #define VALIDATION_H
 
-#include "instance.h"
+#include "state.h"
 
 /* Each returns false with a message that names what is wrong. */
 bool valid_reference(unsigned reference, Message *why);

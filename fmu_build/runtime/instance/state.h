@@ -1,0 +1,124 @@
+/* One instance of the model, in the terms of no particular FMI version: its types.
+ *
+ * Everything that changes during a simulation is in State, which holds no pointers: a snapshot is a copy of it. */
+#ifndef STATE_H
+#define STATE_H
+
+#include <stddef.h>
+
+#include "events.h"
+#include "integrator.h"
+#include "message.h"
+#include "model.h"
+#include "ramp.h"
+
+/* Bits, so that a set of phases is a mask. */
+typedef enum {
+    INSTANTIATED = 1,
+    INITIALIZING = 2,
+    STEPPING = 4,    /* Co-Simulation: at a communication point */
+    UPDATING = 8,    /* Co-Simulation: in the caller's callback between two integrator steps */
+    EVENT_MODE = 16, /* truths follow what is set */
+    CONTINUOUS = 32, /* Model Exchange: truths are held while the caller integrates */
+    TERMINATED = 64,
+    FAILED = 128 /* a step could not be made; what is left is the last good point, for reading only, until reset */
+} Phase;
+
+typedef enum { CO_SIMULATION, CO_SIMULATION_WITH_EVENTS, MODEL_EXCHANGE } Use;
+
+/* DISCARD: the model cannot be evaluated there; the caller may try another point. */
+typedef enum { STATUS_OK, STATUS_WARNING, STATUS_DISCARD, STATUS_ERROR } Status;
+
+typedef enum { LOG_ERROR, LOG_WARNING, LOG_EVENT, N_LOG_CATEGORIES } LogCategory;
+
+typedef void LogFunction(void *receiver, LogCategory category, Status status, const char *message);
+
+/* What a coupling remembers, see coupling.h: at first of the last step that has led on in time. */
+typedef struct {
+    bool stepped; /* there has been one */
+    bool pending; /* u at its end is not known yet, nor what the coupling has made of it */
+    bool moves;   /* the slope of u in it was the unit's own, so that the end is not a value that the caller has set */
+    bool is_set;  /* u has been set since */
+    double size;  /* its length */
+    double span;  /* the time before it from which the slope was taken: 0: it was given, INFINITY: there was none */
+    double start; /* u at its start */
+    double expected; /* u at its end, as the slope has it */
+    double applied;  /* what the master has applied over it */
+    double work;     /* at its start */
+    double impulse;  /* at its end, as are those that follow */
+    double through;
+    double mean;
+    double hold;
+    double owed; /* the impulse transmitted so far less the one applied */
+    double energy;
+    double period;     /* the longest of the last steps */
+    double next_start; /* u at the start of the step that is being made */
+} Coupling;
+
+/* An integrator step that leads beyond the communication point. As long as nothing is set, the next communication
+ * points lie on its path. */
+typedef struct {
+    bool open;
+    Path path;
+    Point arrival;
+} Course;
+
+#if HAS_EVENTS
+/* What discrete.h needs beside variables. */
+typedef struct {
+    double ticks[AT_LEAST_ONE(N_SAMPLES)]; /* the number of the next tick */
+    bool warned[AT_LEAST_ONE(N_CHECKS)];   /* its warning has been given */
+    bool pending;                          /* there is an event to handle before time goes on */
+    bool states_changed;                   /* by an event, and the caller does not know yet */
+    bool ended;                            /* the model has asked to end the simulation */
+} Discrete;
+#endif
+
+typedef struct {
+    Use use;
+    Phase phase;
+    bool settled; /* parameters, start values and holds follow from what has been set */
+    bool current; /* and so do all of v */
+    double tolerance;
+    double stop; /* INFINITY: not given */
+    Variables v;
+    bool holds[AT_LEAST_ONE(N_RELATIONS)];
+    bool event_waits; /* the last step has ended at an event, which the caller has still to handle */
+    bool after_event; /* the last step has ended so */
+    bool next_holds[AT_LEAST_ONE(N_RELATIONS)]; /* the truths behind it; otherwise those that are held */
+    EventDensity density;
+    bool chattering; /* a step has been given up because of too many events */
+    Ramp ramp;
+    Integrator integrator;
+    bool calm; /* nothing has been set since the last step */
+    Course course;
+#if HAS_EVENTS
+    Discrete discrete;
+#endif
+#if N_COUPLINGS > 0
+    Coupling coupling;
+#endif
+} State;
+
+typedef struct Standard Standard; /* see calls.h */
+
+/* Whoever uses the instance, as the facade presents them. */
+typedef struct {
+    const Standard *standard;
+    void *(*allocate)(size_t n, size_t size); /* zeroed, as calloc does; NULL: there is no memory */
+    void (*release)(void *memory);
+    LogFunction *log;
+    void *receiver; /* of the log */
+} Caller;
+
+typedef struct {
+    State state;
+    Rodas rodas; /* room for the work inside a step: nothing in it survives the step */
+    Caller caller;
+    bool logs[N_LOG_CATEGORIES]; /* which categories the caller gets */
+#if N_COUPLINGS > 0
+    State present; /* kept here while a coupling lets the state run ahead */
+#endif
+} Instance;
+
+#endif
