@@ -150,7 +150,7 @@ void model_relations(Variables *v, const bool holds[], double z[]) {{
 
 
 DIFFERENCES = """
-static bool is_known(int i, bool at_start) {
+static bool is_given(int i, bool at_start) {
     const VariableKind kind = variable_info[i].kind;
     return kind == TIME || kind == STATE || kind == INPUT || kind == PARAMETER || kind == FIXED_PARAMETER
         || (kind == STATE_CALCULATED && !at_start);
@@ -158,7 +158,7 @@ static bool is_known(int i, bool at_start) {
 static Variables moved(const Variables *v, const bool holds[], bool at_start, const Variables *d, double way) {
     Variables w = *v;
     for (int i = 0; i < N_VARIABLES; i++) {
-        if (is_known(i, at_start)) w.at[i] += way * d->at[i];
+        if (is_given(i, at_start)) w.at[i] += way * d->at[i];
     }
     model_parameters(&w);
     if (at_start) model_start(&w, holds);
@@ -170,17 +170,17 @@ void model_tangent(const Variables *v, const bool holds[], bool at_start, Variab
     const Variables up = moved(v, holds, at_start, d, way);
     const Variables down = moved(v, holds, at_start, d, -way);
     for (int i = 0; i < N_VARIABLES; i++) {
-        if (!is_known(i, at_start)) d->at[i] = (up.at[i] - down.at[i]) / (2.0 * way);
+        if (!is_given(i, at_start)) d->at[i] = (up.at[i] - down.at[i]) / (2.0 * way);
     }
 }
 void model_adjoint(const Variables *v, const bool holds[], bool at_start, Variables *d) {
     for (int i = 0; i < N_VARIABLES; i++) {
         Variables e = {.at = {0.0}};
         e.at[i] = 1.0;
-        if (!is_known(i, at_start)) continue;
+        if (!is_given(i, at_start)) continue;
         model_tangent(v, holds, at_start, &e);
         for (int j = 0; j < N_VARIABLES; j++) {
-            if (!is_known(j, at_start)) d->at[i] += e.at[j] * d->at[j];
+            if (!is_given(j, at_start)) d->at[i] += e.at[j] * d->at[j];
         }
     }
 }
