@@ -32,10 +32,12 @@ def build(
     fmi: int = 2,
     platforms: Sequence[str] = ("host",),
     progress: Callable[[str], object] = lambda _: None,
+    references: bool = True,
 ) -> None:
     """Build the FMU ``output`` of ``class_name`` in the file or library folder ``modelica``, for FMI version 2 or 3.
 
     ``platforms`` are names that ``named_platforms`` takes; ``progress`` is told the name of each stage that begins.
+    Without ``references`` the results that another tool computed are left out.
     Raises BuildError; then nothing is written.
     """
     chosen = named_platforms(platforms)
@@ -58,7 +60,8 @@ def build(
     interface = expose(model, identifier, ports.terminals)  # Interface: variables in their roles, dependencies
 
     progress("describing")
-    simulations = [simulate(modelica, example) for example in flat.examples]  # Simulation: another tool's results
+    examples = flat.examples if references else ()
+    simulations = [simulate(modelica, example) for example in examples]  # Simulation: another tool's results
     files = contents(flat, interface, generated, simulations, fmi)  # everything but the binaries
     token = content_token(files).encode()
     files = {name: content.replace(TOKEN_PLACEHOLDER.encode(), token) for name, content in files.items()}

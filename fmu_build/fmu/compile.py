@@ -109,7 +109,7 @@ def fmi_headers() -> Path:
 
 
 def compile_library(folder: Path, library: Path, platform: Platform) -> None:
-    """Compile the C files of ``folder`` (model, runtime and facade) to the shared library ``library``.
+    """Compile the C files of ``folder`` (model, runtime and facade), as one unit, to the shared library ``library``.
 
     The bytes depend on the sources, the platform, the compiler and, for this machine, the environment variable CFLAGS
     alone: names of files given to the compiler are relative to ``folder``. What a linker leaves beside the library
@@ -122,7 +122,9 @@ def compile_library(folder: Path, library: Path, platform: Platform) -> None:
         linked = Path(f"link-{platform.name}") / library.name
         (folder / linked).parent.mkdir()
         try:
-            command = [*_command(platform, library.name), "-I.", f"-isystem{fmi_headers()}", *sources]
+            unit = linked.with_name("unit.c")
+            (folder / unit).write_text("".join(f'#include "{source}"\n' for source in sources), encoding="utf-8")
+            command = [*_command(platform, library.name), "-I.", f"-isystem{fmi_headers()}", unit.as_posix()]
             command += ["-o", linked.as_posix(), *([] if platform.suffix == ".dll" else ["-lm"])]
             _run(command, folder, environment)
             library.parent.mkdir(parents=True, exist_ok=True)
