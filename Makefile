@@ -1,5 +1,5 @@
 .DEFAULT_GOAL := help
-.PHONY: help run report test test-platforms fuzz fmu fmu-all ssp dist bench stops sanitize lint format lock clean
+.PHONY: help run report test test-all test-platforms fuzz fmu fmu-all ssp dist bench stops sanitize lint format lock clean
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -21,8 +21,11 @@ run: $(READY)  ## build what is missing, brake, compare with theory, draw (build
 report: $(READY)  ## recompute all figures and claims of the paper into one page (build/report/index.html)
 	$(BIN)/hitch report
 
-test: $(READY)  ## run the tests, on all cores
-	$(BIN)/python -m pytest -n auto
+test: $(READY)  ## run the tests, on all cores: every kind of check, long grids sampled
+	$(BIN)/python -m pytest -n auto --dist worksteal -m "not full and not platforms"
+
+test-all: test  ## run the rest of the tests as well
+	$(BIN)/python -m pytest -n auto --dist worksteal -m full
 
 test-platforms: $(READY)  ## build for all systems and run what can be run here (minutes, the first time)
 	$(BIN)/python -m pytest -m platforms -rs
@@ -53,7 +56,7 @@ $(READY_MADE)/fmi2/%.fmu: $(SOURCES)
 $(READY_MADE)/fmi3/%.fmu: $(SOURCES)
 	$(BUILD).$* -o $@ --fmi 3 --platforms all
 
-bench: $(READY) $(word 1,$(FMUS))  ## measure a run of figure 8 against limits and other ways (benchmarks/results.md; three minutes)
+bench: $(READY) $(word 1,$(FMUS))  ## measure a run of figure 8 against its arithmetic and other ways (benchmarks/results.md; three minutes)
 	$(BIN)/python -m benchmarks $(word 1,$(FMUS))
 
 stops: $(READY)  ## 200 stops from 30 m/s: steps, events, rest, way and energy of each (three minutes)
@@ -78,7 +81,6 @@ format: $(READY)  ## format Python and C
 	$(BIN)/clang-format -i $(C_FILES)
 
 lock: $(READY)  ## renew the pinned versions in requirements.txt
-	$(BIN)/python -m pip install --quiet uv
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.10 --extra dev --upgrade \
 	    --no-header --no-annotate pyproject.toml -o requirements.txt
 
@@ -88,6 +90,8 @@ clean:  ## remove what was built; keep .venv
 $(READY): requirements.txt pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10) and "Python 3.10 or newer is needed; name one with make PYTHON=...")'
 	test -x $(BIN)/python || $(PYTHON) -m venv .venv
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.txt
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check $$(grep '^uv==' requirements.txt) && \
+	    $(BIN)/uv pip install --quiet --compile-bytecode --python $(BIN)/python -r requirements.txt || \
+	    $(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.txt
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	touch $@

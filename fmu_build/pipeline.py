@@ -51,10 +51,12 @@ def build(
     fmi: int = 2,
     platforms: Sequence[str] = ("host",),
     progress: Callable[[str], object] = lambda _: None,
+    references: bool = True,
 ) -> None:
     """Build the FMU ``output`` of ``class_name`` in the file or library folder ``modelica``, for FMI version 2 or 3.
 
     ``platforms`` are names that ``named_platforms`` takes; ``progress`` is told the name of each stage that begins.
+    Without ``references`` the results that another tool computed are left out.
     Raises BuildError; then nothing is written.
     """
     chosen = named_platforms(platforms)
@@ -73,7 +75,8 @@ def build(
     generated = CSources(equations.files | algebra.files)
     progress("describing")
     interface = expose(model, jacobian, identifier, ports)
-    simulations = [simulate(modelica, example) for example in flat.examples]
+    examples = flat.examples if references else ()
+    simulations = [simulate(modelica, example) for example in examples]
     files = contents(flat, interface, generated, simulations, fmi)
     libraries = binaries(files, identifier, chosen, fmi, progress)
     progress("packing")

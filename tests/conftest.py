@@ -1,8 +1,9 @@
-"""What tests of both halves share: the FMU under test, built once for a run of the tests."""
+"""What tests of both halves share: the FMUs under test."""
 
 from __future__ import annotations
 
 import os
+import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -11,11 +12,16 @@ import pytest
 # Matrices here are tiny, and the tests keep every core busy by themselves. Read when numpy is imported, below.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-from fmu_build.pipeline import build
+from fmu_build.fmu.compile import compiler
 from overrun_hitch.fmu.messages import listening
+from tests.kept import LIBRARY, kept_fmus, prune
 
 ROOT = Path(__file__).parents[1]
-LIBRARY = ROOT / "modelica" / "OverrunHitch"
+
+
+def pytest_sessionstart(session: pytest.Session) -> None:
+    if not hasattr(session.config, "workerinput"):  # that is: once, before there are other processes
+        prune()
 
 
 @pytest.fixture(autouse=True)
@@ -31,28 +37,27 @@ def modelica_library() -> Path:
 
 
 @pytest.fixture(scope="session")
-def car_trailer_fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[int, Path]:
+def car_trailer_fmus() -> dict[int, Path]:
     """CarTrailer.fmu by version of FMI."""
-    folder = tmp_path_factory.mktemp("fmu")
-    fmus = {version: folder / f"fmi{version}" / "CarTrailer.fmu" for version in (2, 3)}
-    for version, output in fmus.items():
-        build(LIBRARY, "OverrunHitch.Systems.CarTrailer", output, version)
-    return fmus
+    return {version: kept_fmus("Systems.CarTrailer", fmi=version)["CarTrailer"] for version in (2, 3)}
 
 
 @pytest.fixture(scope="session")
-def car_trailer_fmu(car_trailer_fmus: dict[int, Path]) -> Path:
-    return car_trailer_fmus[2]
+def car_trailer_fmu() -> Path:
+    return kept_fmus("Systems.CarTrailer", fmi=2)["CarTrailer"]
 
 
 @pytest.fixture(scope="session")
-def pair_fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[int, dict[str, Path]]:
+def pair_fmus() -> dict[int, dict[str, Path]]:
     """Car.fmu and Trailer.fmu by version of FMI and name."""
-    folder = tmp_path_factory.mktemp("pair")
-    fmus = {
-        version: {name: folder / f"fmi{version}" / f"{name}.fmu" for name in ("Car", "Trailer")} for version in (2, 3)
-    }
-    for version, units in fmus.items():
-        for name, output in units.items():
-            build(LIBRARY, f"OverrunHitch.Systems.{name}", output, version)
-    return fmus
+    return {version: kept_fmus("Systems.Car", "Systems.Trailer", fmi=version) for version in (2, 3)}
+
+
+@pytest.fixture(scope="session")
+def sanitizers(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Skips a test where the compiler has none."""
+    source = tmp_path_factory.mktemp("sanitizers") / "empty.c"
+    source.write_text("int main(void)\n{\n    return 0;\n}\n")
+    command = [*compiler(), "-fsanitize=address,undefined", str(source), "-o", str(source.with_suffix(""))]
+    if subprocess.run(command, capture_output=True, check=False).returncode != 0:
+        pytest.skip(f"{compiler()[0]} has no sanitizers")

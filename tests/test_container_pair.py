@@ -15,6 +15,7 @@ import pytest
 from fmu_manipulation_toolbox.container import FMUContainer  # type: ignore[import-untyped]
 
 from overrun_hitch.parameters import FIGURES, Parameters
+from tests.sampling import spread
 from tests.test_container import Floats, brake_torque, instance, toolbox_runs_here
 
 COUNT, H = 600, 0.01  # six seconds, in steps of H s
@@ -81,9 +82,9 @@ def coupled(
 
 
 @toolbox_runs_here
-@pytest.mark.parametrize("scheme", ["parallel", "threads", "sequential"])
-@pytest.mark.parametrize("figure", ["7", "10"])
-@pytest.mark.parametrize("version", [2, 3])
+@pytest.mark.parametrize(
+    ("version", "figure", "scheme"), spread([2, 3], ["7", "10"], ["parallel", "threads", "sequential"])
+)
 def test_the_pair_in_a_container(
     pair_fmus: dict[int, dict[str, Path]], tmp_path: Path, version: int, figure: str, scheme: str
 ) -> None:

@@ -11,7 +11,7 @@ import fmpy
 import numpy as np
 import pytest
 
-from fmu_build.fmu.contents import HEADERS
+from fmu_build.fmu.compile import HEADERS
 
 needs_cmake = pytest.mark.skipif(shutil.which("cmake") is None, reason="cmake is not installed")
 

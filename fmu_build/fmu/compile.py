@@ -15,6 +15,7 @@ from pathlib import Path
 from ..errors import BuildError
 
 RUNTIME = Path(__file__).parents[1] / "runtime"
+HEADERS = Path(__file__).parents[1] / "headers"  # the standard's, a folder for each version
 WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Wdouble-promotion")
 # No fused multiply-add: the same source gives the same digits on every machine.
 # A shared library's functions have the standard's own names; a prefix is for static linking (see unit_header.py).
@@ -106,7 +107,7 @@ def compiler() -> list[str]:
 
 
 def compile_library(folder: Path, library: Path, platform: Platform) -> None:
-    """Compile the C files of ``folder`` (model, runtime and facade) to the shared library ``library``.
+    """Compile the C files of ``folder`` (model, runtime and facade), as one unit, to the shared library ``library``.
 
     The bytes depend on the sources, the platform, the compiler and, for this machine, the environment variable CFLAGS
     alone: names of files given to the compiler are relative to ``folder``. What a linker leaves beside the library
@@ -119,7 +120,9 @@ def compile_library(folder: Path, library: Path, platform: Platform) -> None:
         linked = Path(f"link-{platform.name}") / library.name
         (folder / linked).parent.mkdir()
         try:
-            command = [*_command(platform, library.name), "-I.", *sources]
+            unit = linked.with_name("unit.c")
+            (folder / unit).write_text("".join(f'#include "{source}"\n' for source in sources), encoding="utf-8")
+            command = [*_command(platform, library.name), "-I.", unit.as_posix()]
             command += ["-o", linked.as_posix(), *([] if platform.suffix == ".dll" else ["-lm"])]
             _run(command, folder, environment)
             library.parent.mkdir(parents=True, exist_ok=True)

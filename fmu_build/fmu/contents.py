@@ -9,7 +9,7 @@ from pathlib import Path
 from ..ir.models import TOKEN_PLACEHOLDER, CSources, FlatModel, Simulation
 from . import xml_fmi2, xml_fmi3
 from .archive import content_token
-from .compile import RUNTIME
+from .compile import HEADERS, RUNTIME
 from .documentation import document
 from .icon import draw_icon
 from .interface import Interface
@@ -17,7 +17,6 @@ from .licences import licence_files
 from .reference import reference_files
 from .unit_header import how_to_build, unit_header
 
-HEADERS = Path(__file__).parents[1] / "headers"
 SOURCES = "sources/"
 
 

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import ctypes
-import hashlib
-import os
 import re
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
-import locket
 import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
@@ -28,32 +25,30 @@ from fmu_build.frontend.flatten import flatten
 from fmu_build.ir.dependencies import start_value
 from fmu_build.ir.models import SortedModel
 from fmu_build.pipeline import build
+from tests.kept import kept
 
 Writer = Callable[[str], Path]
 Build = Callable[[str, int], Path]
 
 
 @pytest.fixture(scope="session")
-def built(tmp_path_factory: pytest.TempPathFactory) -> Build:
-    """The FMU of a Modelica text (its last class) in a version of FMI, built once, whichever process asks first.
+def built() -> Build:
+    """The FMU of a Modelica text (its last class) in a version of FMI.
 
     Compilers take most of the time of these tests: what they optimize is left to the other tests.
     """
-    own = tmp_path_factory.getbasetemp()
-    shared = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
 
     def get(text: str, fmi: int) -> Path:
         name = re.findall(r"^(?:model|block|package) (\w+)", text, re.MULTILINE)[-1]
-        folder = shared / f"{name}-{fmi}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
-        folder.mkdir(exist_ok=True)
-        output = folder / f"{name}.fmu"
-        with locket.lock_file(str(folder / "lock")), pytest.MonkeyPatch.context() as patch:
-            if not output.exists():
-                patch.setenv("CFLAGS", "-O0 -Werror")
-                (folder / f"{name}.mo").write_text(text, encoding="utf-8")
-                build(folder / f"{name}.mo", name, output, fmi)
-                assert validate_fmu(str(output)) == []
-        return output
+
+        def make(folder: Path) -> None:
+            (folder / f"{name}.mo").write_text(text, encoding="utf-8")
+            build(folder / f"{name}.mo", name, folder / f"{name}.fmu", fmi)
+            assert validate_fmu(str(folder / f"{name}.fmu")) == []
+
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setenv("CFLAGS", "-O0 -Werror")
+            return kept(make, "FMU of a text", text, str(fmi)) / f"{name}.fmu"
 
     return get
 

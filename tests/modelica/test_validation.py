@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from fmu_build.pipeline import build
+from tests.kept import LIBRARY, kept_fmus
 from tests.unit import Unit
 
-LIBRARY = Path(__file__).parents[2] / "modelica" / "OverrunHitch"
 CLASSES = (LIBRARY / "Validation" / "package.order").read_text().split()
 STEPS = 500
 BOUND = 1e-6  # of the largest value that is expected
@@ -21,12 +19,10 @@ BOUND = 1e-6  # of the largest value that is expected
 @pytest.fixture(scope="module", params=CLASSES)
 def checked(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, Unit]]:
     """Name of the class, and its unit."""
-    folder = tmp_path_factory.mktemp(request.param)
-    fmu = folder / f"{request.param}.fmu"
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("CFLAGS", "-O0")  # compiling takes longer than all that follows
-        build(LIBRARY, f"OverrunHitch.Validation.{request.param}", fmu)
-    unit = Unit(fmu, folder / "unpacked")
+        fmu = kept_fmus(f"Validation.{request.param}", fmi=2)[request.param]
+    unit = Unit(fmu, tmp_path_factory.mktemp(request.param))
     unit.slave.instantiate()
     yield request.param, unit
     unit.slave.freeInstance()

@@ -15,15 +15,18 @@ paper's figures the two are within 1e-11 m and 2e-10 m/s of each other over 6 s.
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from overrun_hitch.parameters import Parameters
+from tests.kept import kept
 
 Floats = NDArray[np.float64]
 
@@ -153,5 +156,13 @@ def _sample(p: Parameters, brake_torque: float, regime: int, y: Floats) -> Float
 
 @lru_cache(maxsize=64)
 def trajectory(p: Parameters, brake_torque: float = 1000.0, duration: float = 6.0, method: str = "Radau") -> Trajectory:
-    """`solve` at the oracle's accuracy, every millisecond, computed once a session."""
-    return solve(p, brake_torque, np.arange(round(duration * 1000) + 1) / 1000.0, method=method)
+    """`solve` at the oracle's accuracy, every millisecond, computed once."""
+
+    def make(folder: Path) -> None:
+        solved = solve(p, brake_torque, np.arange(round(duration * 1000) + 1) / 1000.0, method=method)
+        (folder / "trajectory").write_bytes(pickle.dumps(solved))
+
+    code = Path(__file__).read_text(encoding="utf-8")
+    folder = kept(make, "trajectory", code, repr(p), f"{brake_torque!r} {duration!r}", method)
+    found: Trajectory = pickle.loads((folder / "trajectory").read_bytes())
+    return found

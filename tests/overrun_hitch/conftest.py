@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable
+from importlib.metadata import version
 from pathlib import Path
 
 import pytest
@@ -13,6 +15,7 @@ from overrun_hitch.paper.figures.all import figures
 from overrun_hitch.paper.study.study import Study, study
 from overrun_hitch.parameters import Scenario
 from overrun_hitch.results import VARIABLES, dataset, scenario_attributes
+from tests.kept import ROOT, contents, digest, kept
 from tests.oracles import radau
 
 OracleRun = Callable[..., xr.Dataset]
@@ -36,8 +39,14 @@ def oracle_run() -> OracleRun:
 
 @pytest.fixture(scope="session")
 def paper_study(car_trailer_fmu: Path) -> Study:
-    """Everything recomputed: about ten seconds, once for all tests of it."""
-    return study(car_trailer_fmu)
+    """Everything recomputed: about ten seconds, once for all processes."""
+
+    def make(folder: Path) -> None:
+        (folder / "study").write_bytes(pickle.dumps(study(car_trailer_fmu)))
+
+    code = digest(contents(ROOT / "python"))
+    folder = kept(make, "study", digest([car_trailer_fmu.read_bytes()]), code, *map(version, ("pandas", "xarray")))
+    return pickle.loads((folder / "study").read_bytes())
 
 
 @pytest.fixture(scope="session")

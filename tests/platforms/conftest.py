@@ -13,8 +13,7 @@ from pathlib import Path
 import fmpy
 import pytest
 
-from fmu_build.fmu.compile import PLATFORMS, WARNINGS, Platform, compiler, host_platform, zig_compiler
-from fmu_build.fmu.contents import HEADERS
+from fmu_build.fmu.compile import HEADERS, PLATFORMS, WARNINGS, Platform, compiler, host_platform, zig_compiler
 from fmu_build.pipeline import build
 
 HERE = Path(__file__).parent

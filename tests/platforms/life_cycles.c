@@ -7,15 +7,16 @@
 
 enum { CYCLES = 10000 };
 
-/* From the page tables: the kernel's running counts (statm) lag behind by some pages for each processor. */
-static long resident_bytes(void)
+/* What was allocated, from the page tables: the kernel's running counts (statm) lag behind by some pages for each
+   processor, and pages of files come and go with what else the machine does. */
+static long allocated_bytes(void)
 {
     char line[128];
     long kilobytes = -1;
     FILE *file = fopen("/proc/self/smaps_rollup", "r");
     while (file != NULL && kilobytes < 0 && fgets(line, sizeof line, file) != NULL) {
-        if (strncmp(line, "Rss:", 4) == 0) {
-            kilobytes = strtol(line + 4, NULL, 10);
+        if (strncmp(line, "Anonymous:", 10) == 0) {
+            kilobytes = strtol(line + 10, NULL, 10);
         }
     }
     if (file != NULL) {
@@ -50,14 +51,14 @@ int main(int argc, char **argv)
     }
     for (int cycle = 0; cycle < CYCLES; cycle++) {
         if (cycle == CYCLES / 10) {
-            before = resident_bytes();
+            before = allocated_bytes();
         }
         if (!live(&unit, cycle)) {
             (void)fprintf(stderr, "life cycle %d failed\n", cycle);
             return 1;
         }
     }
-    const long after = resident_bytes();
+    const long after = allocated_bytes();
     if (before < 0 || after < 0) {
         (void)fprintf(stderr, "the size of the process is not known\n");
         return 2;

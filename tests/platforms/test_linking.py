@@ -12,8 +12,7 @@ import fmpy
 import lief
 import pytest
 
-from fmu_build.fmu.compile import compiler
-from fmu_build.fmu.contents import HEADERS
+from fmu_build.fmu.compile import HEADERS, compiler
 
 HERE = Path(__file__).parent
 NAMES = {

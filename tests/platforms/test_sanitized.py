@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from fmu_build.fmu.compile import OPTIONS, compiler
+from fmu_build.fmu.compile import compile_library, host_platform
 from tests.platforms.conftest import Program
 
 SANITIZE = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g", "-O1")
@@ -16,17 +15,15 @@ SANITIZE = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g", "
 
 @pytest.fixture(scope="module")
 def sanitized(
-    car_trailer_fmu: Path, extracted: Callable[[Path], Path], tmp_path_factory: pytest.TempPathFactory
+    sanitizers: None,
+    car_trailer_fmu: Path,
+    extracted: Callable[[Path], Path],
+    tmp_path_factory: pytest.TempPathFactory,
 ) -> Path:
-    folder = tmp_path_factory.mktemp("sanitized")
-    (folder / "probe.c").write_text("int main(void)\n{\n    return 0;\n}\n")
-    probe = [*compiler(), *SANITIZE, str(folder / "probe.c"), "-o", str(folder / "probe")]
-    if subprocess.run(probe, capture_output=True, check=False).returncode != 0:
-        pytest.skip(f"{compiler()[0]} has no sanitizers")
-    library = folder / "CarTrailer.so"
-    sources = sorted((extracted(car_trailer_fmu) / "sources").glob("*.c"))
-    options = [*OPTIONS, *SANITIZE, f"-I{sources[0].parent}"]
-    subprocess.run([*compiler(), *options, *map(str, sources), "-o", str(library), "-lm"], check=True)
+    library = tmp_path_factory.mktemp("sanitized") / "CarTrailer.so"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("CFLAGS", " ".join(SANITIZE))
+        compile_library(extracted(car_trailer_fmu) / "sources", library, host_platform())
     return library
 
 

@@ -12,8 +12,7 @@ import pytest
 from fmu_build.ir.equations import Loop
 from fmu_build.ir.models import SortedModel
 from fmu_build.ir.symbols import Kind, kind_of
-from fmu_build.pipeline import build
-from tests.fmu_build.conftest import CompiledModel, Writer
+from tests.fmu_build.conftest import Build, CompiledModel
 from tests.unit import Unit
 
 Compile = Callable[[str], CompiledModel]
@@ -109,26 +108,25 @@ end M;"""
     assert model.jacobian()[0, 0] == pytest.approx(-u[49], rel=1e-12)
 
 
-def test_where_there_is_no_solution_the_unknowns_are_named(modelica_file: Writer, tmp_path: Path) -> None:
+def test_where_there_is_no_solution_the_unknowns_are_named(built: Build) -> None:
     text = (
         "model M\n  Real x(start=0, fixed=true);\n  Real y(start=1);\nequation\n  der(x) = 1;\n  y^2 + x = 1;\nend M;"
     )
-    build(modelica_file(text), "M", tmp_path / "M.fmu")
+    fmu = str(built(text, 2))
     messages: list[str] = []
 
     def log(environment: object, instance: bytes, status: int, category: bytes, message: bytes) -> None:
         messages.append(message.decode())
 
-    result = fmpy.simulate_fmu(str(tmp_path / "M.fmu"), stop_time=0.75, output=["y"], logger=log)
+    result = fmpy.simulate_fmu(fmu, stop_time=0.75, output=["y"], logger=log)
     assert result["y"][-1] == pytest.approx(0.5, rel=1e-9)
     with pytest.raises(fmpy.fmi1.FMICallException, match="fmi2DoStep"):
-        fmpy.simulate_fmu(str(tmp_path / "M.fmu"), stop_time=1.5, logger=log)
+        fmpy.simulate_fmu(fmu, stop_time=1.5, logger=log)
     assert "no solution was found of the nonlinear equations of y (M.mo:6)" in messages[-1]
 
 
-def test_a_rollback_is_bit_equal(modelica_file: Writer, tmp_path: Path) -> None:
-    build(modelica_file(NONLINEAR), "M", tmp_path / "M.fmu")
-    unit = Unit(tmp_path / "M.fmu", tmp_path / "unit")
+def test_a_rollback_is_bit_equal(built: Build, tmp_path: Path) -> None:
+    unit = Unit(built(NONLINEAR, 2), tmp_path)
     unit.slave.instantiate()
     unit.start(k=2.0)
     unit.slave.doStep(0.0, 0.3)

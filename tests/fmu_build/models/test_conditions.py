@@ -15,6 +15,7 @@ from fmu_build.ir.conditions import compare, insert
 from fmu_build.ir.symbols import holds, symbol
 from tests.fmu_build.cases import Case, check
 from tests.fmu_build.conftest import Build
+from tests.sampling import spread
 
 NAMES = ("a", "b", "c")
 TRUTHS = (holds(0), holds(1))
@@ -196,7 +197,6 @@ end M;""",
 }
 
 
-@pytest.mark.parametrize("fmi", [2, 3])
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize(("name", "fmi"), spread(CASES, [2, 3]))
 def test_a_model_against_an_independent_solution(name: str, fmi: int, built: Build) -> None:
     check(CASES[name], fmi, built)

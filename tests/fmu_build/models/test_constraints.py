@@ -15,6 +15,7 @@ from fmu_build.errors import BuildError
 from fmu_build.pipeline import build
 from tests.fmu_build.cases import Case, Columns, check
 from tests.fmu_build.conftest import Build, CompiledModel, Writer
+from tests.sampling import spread
 
 PENDULUM = """
 model M "A pendulum in x and y"
@@ -160,8 +161,7 @@ end M;""",
 }
 
 
-@pytest.mark.parametrize("fmi", [2, 3])
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize(("name", "fmi"), spread(CASES, [2, 3]))
 def test_a_model_against_an_independent_solution(name: str, fmi: int, built: Build) -> None:
     check(CASES[name], fmi, built)
 

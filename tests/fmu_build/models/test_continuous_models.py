@@ -13,6 +13,7 @@ from scipy.linalg import expm
 
 from tests.fmu_build.cases import Case, Columns, check, solution
 from tests.fmu_build.conftest import Build
+from tests.sampling import spread
 
 
 def rod(times: NDArray[np.float64]) -> Columns:
@@ -301,7 +302,6 @@ end M;""",
 }
 
 
-@pytest.mark.parametrize("fmi", [2, 3])
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize(("name", "fmi"), spread(CASES, [2, 3]))
 def test_a_model_against_an_independent_solution(name: str, fmi: int, built: Build) -> None:
     check(CASES[name], fmi, built)

@@ -17,6 +17,7 @@ from lxml import etree
 from scipy.integrate import solve_ivp
 
 from fmu_build.pipeline import build
+from tests.sampling import sampled
 from tests.unit import Unit
 
 NAMES = ("Trailer", "Car")
@@ -25,13 +26,9 @@ FORCES = ("F_hitch", "F_hitch_mean", "F_hitch_hold")
 Fmus = dict[tuple[str, int], Path]
 
 
-@pytest.fixture(scope="module")
-def fmus(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> Fmus:
-    folder = tmp_path_factory.mktemp("coupled")
-    paths = {(name, version): folder / f"fmi{version}" / f"{name}.fmu" for name in NAMES for version in VERSIONS}
-    for (name, version), path in paths.items():
-        build(modelica_library, f"OverrunHitch.Systems.{name}", path, version)
-    return paths
+@pytest.fixture
+def fmus(pair_fmus: dict[int, dict[str, Path]]) -> Fmus:
+    return {(name, version): fmu for version, units in pair_fmus.items() for name, fmu in units.items()}
 
 
 @pytest.fixture
@@ -66,10 +63,10 @@ def test_both_checkers_find_nothing(fmus: Fmus, name: str, version: int) -> None
     assert "WARNING" not in report and "ERROR" not in report
 
 
-def test_the_same_source_gives_the_same_bytes(fmus: Fmus, modelica_library: Path, tmp_path: Path) -> None:
-    for version in VERSIONS:
-        build(modelica_library, "OverrunHitch.Systems.Trailer", tmp_path / "Trailer.fmu", version)
-        assert (tmp_path / "Trailer.fmu").read_bytes() == fmus["Trailer", version].read_bytes()
+@pytest.mark.parametrize("version", sampled(VERSIONS, [3]))
+def test_the_same_source_gives_the_same_bytes(fmus: Fmus, modelica_library: Path, tmp_path: Path, version: int) -> None:
+    build(modelica_library, "OverrunHitch.Systems.Trailer", tmp_path / "Trailer.fmu", version)
+    assert (tmp_path / "Trailer.fmu").read_bytes() == fmus["Trailer", version].read_bytes()
 
 
 def terminals(fmu: Path) -> dict[str, dict[str, tuple[str, str]]]:

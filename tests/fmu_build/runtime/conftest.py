@@ -12,15 +12,15 @@ from tests.fmu_build.runtime.runtime_unit import Library, Unit, compile_model
 
 
 @pytest.fixture(scope="session")
-def library(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Library]:
-    """Each model is compiled once a session and facade."""
-    compiled: dict[tuple[str, int], Library] = {}
+def library() -> Callable[..., Library]:
+    """Each model is loaded once a session and facade."""
+    loaded: dict[tuple[str, int], Library] = {}
 
     def get(model: Model, fmi: int = 2) -> Library:
         key = model.name, fmi
-        if key not in compiled:
-            compiled[key] = compile_model(model, tmp_path_factory.mktemp(model.name), fmi)
-        return compiled[key]
+        if key not in loaded:
+            loaded[key] = compile_model(model, fmi)
+        return loaded[key]
 
     return get
 

@@ -3,24 +3,19 @@
 from __future__ import annotations
 
 import ctypes as ct
-import os
-import shutil
 import subprocess
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import fmpy
 import numpy as np
 
+from fmu_build.fmu.compile import HEADERS, OPTIONS, RUNTIME, compiler
 from tests.fmu_build.runtime.hand_written import TOKEN, Model
+from tests.kept import kept
 
-ROOT = Path(__file__).parents[3]
-RUNTIME = ROOT / "fmu_build" / "runtime"
-FMI_HEADERS = Path(fmpy.__file__).parent / "c-code"
-FLAGS = [
-    *"-std=c11 -O2 -fPIC -shared -fvisibility=hidden -ffp-contract=off".split(),
-    *"-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror".split(),
-]
+HERE = Path(__file__).parent
+FLAGS = [*OPTIONS, "-O1", "-Werror"]
 OK, WARNING, DISCARD, ERROR = range(4)
 
 LOGGER = ct.CFUNCTYPE(None, ct.c_void_p, ct.c_char_p, ct.c_int, ct.c_char_p, ct.c_char_p, ct.c_char_p)
@@ -220,20 +215,31 @@ class Unit:
             self.component = None
 
 
-def compile_sources(model: Model, folder: Path, fmi: int, flags: list[str], extra: str, output: str) -> Path:
-    """The runtime with one facade, the model, and one more file of this folder."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, text in model.files().items():
-        (folder / name).write_text(text, encoding="utf-8")
+def compile_sources(model: Model, fmi: int, flags: Sequence[str], extra: str) -> Path:
+    """The runtime with one facade and the model, as one unit, and one more file of this folder."""
     other = {2: "fmi3", 3: "fmi2"}[fmi]
     runtime = [file for file in sorted(RUNTIME.rglob("*.c")) if file.parent.name != other]
-    folders = [f"-I{part}" for part in (RUNTIME, *RUNTIME.iterdir()) if part.is_dir()]
-    sources = [*runtime, Path(__file__).parent / extra, *sorted(folder.glob("*.c"))]
-    compiler = os.environ.get("CC") or shutil.which("cc") or shutil.which("gcc")
-    assert compiler is not None, "these tests need a C compiler"
-    command = [compiler, *flags, f"-I{folder}", *folders, f"-isystem{FMI_HEADERS}", *map(str, sources)]
-    subprocess.run([*command, "-o", str(folder / output), "-lm"], check=True)
-    return folder / output
+    files = model.files()
+
+    def make(folder: Path) -> None:
+        for name, text in files.items():
+            (folder / name).write_text(text, encoding="utf-8")
+        sources = [*runtime, *sorted(folder.glob("*.c"))]
+        (folder / "unit.c").write_text("".join(f'#include "{source}"\n' for source in sources), encoding="utf-8")
+        folders = [f"-I{part}" for part in (folder, HERE, RUNTIME, *RUNTIME.iterdir()) if part.is_dir()]
+        command = [
+            *compiler(),
+            *flags,
+            *folders,
+            f"-isystem{HEADERS / f'fmi{fmi}'}",
+            str(folder / "unit.c"),
+            str(HERE / extra),
+        ]
+        subprocess.run([*command, "-o", str(folder / model.name), "-lm"], check=True)
+
+    drivers = [path.read_text(encoding="utf-8") for path in sorted(HERE.glob("*.[ch]"))]
+    inputs = (extra, str(fmi), *flags, model.name, *drivers, *map(str, sorted(files.items())))
+    return kept(make, "model with the runtime", *inputs) / model.name
 
 
 def load(path: Path) -> ct.CDLL:
@@ -247,6 +253,6 @@ def load(path: Path) -> ct.CDLL:
     return dll
 
 
-def compile_model(model: Model, folder: Path, fmi: int = 2) -> Library:
-    path = compile_sources(model, folder, fmi, FLAGS, "probe.c", f"{model.name}-{fmi}.so")
+def compile_model(model: Model, fmi: int = 2) -> Library:
+    path = compile_sources(model, fmi, FLAGS, "probe.c")
     return Library(model, path, load(path) if fmi == 2 else ct.CDLL(str(path)))

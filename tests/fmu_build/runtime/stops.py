@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import multiprocessing
 import sys
-import tempfile
 from dataclasses import dataclass
 from functools import partial
 from itertools import product
@@ -176,14 +175,13 @@ def main() -> int:
     bad = 0
     print(HEAD)
     print("|".join("-" * len(cell) for cell in HEAD.split("|")))
-    with tempfile.TemporaryDirectory(prefix="stops-") as folder:
-        model = generate(LIBRARY, "OverrunHitch.Systems.CarTrailer")
-        path = compile_model(model, Path(folder)).path  # type: ignore[arg-type]
-        with multiprocessing.Pool(2) as pool:
-            for case, row in zip(cases, pool.imap(partial(stop, model, path), cases), strict=True):
-                bad += bool(row.bad)
-                shown = f"| {case.C:4g} | {case.eps:4g} | {case.mu:3g} | {case.grade:5g} | {case.torque:6g} "
-                print(f"{shown}{row} {', '.join(row.bad)}", flush=True)
+    model = generate(LIBRARY, "OverrunHitch.Systems.CarTrailer")
+    path = compile_model(model).path  # type: ignore[arg-type]
+    with multiprocessing.Pool(2) as pool:
+        for case, row in zip(cases, pool.imap(partial(stop, model, path), cases), strict=True):
+            bad += bool(row.bad)
+            shown = f"| {case.C:4g} | {case.eps:4g} | {case.mu:3g} | {case.grade:5g} | {case.torque:6g} "
+            print(f"{shown}{row} {', '.join(row.bad)}", flush=True)
     print(f"{len(cases)} stops, {bad} out of bounds")
     return 1 if bad else 0
 

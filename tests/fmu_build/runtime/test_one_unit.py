@@ -10,12 +10,13 @@ from pathlib import Path
 
 import pytest
 
-from fmu_build.fmu.compile import compiler
+from fmu_build.fmu.compile import HEADERS, compiler
 from tests.fmu_build.runtime.coupled_models import TOWED
 from tests.fmu_build.runtime.generated_models import EVENTS, GeneratedModel, generate
 from tests.fmu_build.runtime.hand_written import Model
 from tests.fmu_build.runtime.runtime_models import CAR_TRAILER
-from tests.fmu_build.runtime.runtime_unit import FLAGS, FMI_HEADERS, RUNTIME
+from tests.fmu_build.runtime.runtime_unit import FLAGS, RUNTIME
+from tests.sampling import spread
 
 # A loop, linear and not, beside what EVENTS has.
 LOOPS = """model Loops
@@ -41,13 +42,12 @@ def compile_as_one(model: Model | GeneratedModel, fmi: int, folder: Path, *, bac
     parts = [RUNTIME, *(part for part in RUNTIME.iterdir() if part.is_dir() and part.name != other)]
     sources = [file.name for part in (*parts, folder) for file in part.glob("*.c")]
     unit = "".join(f'#include "{name}"\n' for name in sorted(sources, reverse=backwards))
-    command = [*compiler(), *FLAGS, "-O0", f"-I{folder}", *(f"-I{part}" for part in parts), f"-isystem{FMI_HEADERS}"]
-    command += ["-x", "c", "-", "-o", str(folder / "one.so"), "-lm"]
+    command = [*compiler(), *FLAGS, "-O0", f"-I{folder}", *(f"-I{part}" for part in parts)]
+    command += [f"-isystem{HEADERS / f'fmi{fmi}'}", "-x", "c", "-", "-o", str(folder / "one.so"), "-lm"]
     subprocess.run(command, input=unit, text=True, check=True)
 
 
-@pytest.mark.parametrize("backwards", [False, True])
-@pytest.mark.parametrize("fmi", [2, 3])
+@pytest.mark.parametrize(("fmi", "backwards"), spread([2, 3], [False, True]))
 @pytest.mark.parametrize("model", [CAR_TRAILER, TOWED], ids=lambda m: m.name)
 def test_a_model_written_by_hand(model: Model, fmi: int, backwards: bool, tmp_path: Path) -> None:
     compile_as_one(model, fmi, tmp_path, backwards=backwards)

@@ -40,6 +40,7 @@ def command(
     return run
 
 
+@pytest.mark.full
 def test_files(command: Command, paper_figures: dict[str, Figure], tmp_path: Path) -> None:
     assert command(every=True) == 0
     names = {path.name for path in (tmp_path / "out").iterdir()}

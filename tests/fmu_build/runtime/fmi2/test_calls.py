@@ -12,6 +12,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from fmu_build.fmu.compile import HEADERS
 from tests.fmu_build.runtime.hand_written import TOKEN, Model
 from tests.fmu_build.runtime.runtime_models import (
     CAR_TRAILER,
@@ -26,7 +27,6 @@ from tests.fmu_build.runtime.runtime_unit import (
     ALLOCATE,
     DISCARD,
     ERROR,
-    FMI_HEADERS,
     FREE,
     LOGGER,
     OK,
@@ -56,7 +56,7 @@ def test_exports_are_the_functions_of_the_standard(library: Callable[[Model], Li
         pytest.skip("no nm")
     text = subprocess.run([nm, "-D", "--defined-only", library(CAR_TRAILER).path], capture_output=True, text=True)
     exported = {line.split()[-1] for line in text.stdout.splitlines()}
-    header = (FMI_HEADERS / "fmi2Functions.h").read_text(encoding="utf-8")
+    header = (HEADERS / "fmi2" / "fmi2Functions.h").read_text(encoding="utf-8")
     standard = set(re.findall(r"FMI2_Export\s+\w+\s+(\w+);", header))
     assert len(standard) == 44
     assert {name for name in exported if not name.startswith("probe_")} == standard

@@ -13,10 +13,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from fmu_build.fmu.compile import HEADERS
 from tests.fmu_build.runtime.hand_written import TOKEN
 from tests.fmu_build.runtime.runtime_fmi3 import LOG, Unit3
 from tests.fmu_build.runtime.runtime_models import CAR_TRAILER, NO_STATES, OSCILLATOR, SINGULAR, SLIDING
-from tests.fmu_build.runtime.runtime_unit import DISCARD, ERROR, FMI_HEADERS, OK, WARNING, Library, Unit
+from tests.fmu_build.runtime.runtime_unit import DISCARD, ERROR, OK, WARNING, Library, Unit
 
 PERIOD = pi / 2 + pi / 30  # of the oscillator without a gap
 
@@ -28,7 +29,7 @@ def test_exports_are_the_functions_of_the_standard(library: Callable[..., Librar
     command = [nm, "-D", "--defined-only", library(CAR_TRAILER, 3).path]
     text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     exported = {line.split()[-1] for line in text.splitlines()}
-    header = (FMI_HEADERS / "fmi3Functions.h").read_text(encoding="utf-8")
+    header = (HEADERS / "fmi3" / "fmi3Functions.h").read_text(encoding="utf-8")
     standard = set(re.findall(r"FMI3_Export\s+\w+\s+(\w+);", header))
     assert len(standard) == 75
     assert {name for name in exported if not name.startswith("probe_")} == standard

@@ -18,6 +18,7 @@ from overrun_hitch.parameters import FIGURES, Parameters
 from tests.fmu_build.runtime.generated_models import generate
 from tests.fmu_build.runtime.runtime_unit import OK, Counters, Library, Unit, compile_model
 from tests.oracles import radau
+from tests.sampling import sampled
 
 Floats = NDArray[np.float64]
 
@@ -62,10 +63,10 @@ def looked_at(points: Floats) -> NDArray[np.intp]:
 
 
 @pytest.fixture(scope="module")
-def car_trailer(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> Library:
+def car_trailer(modelica_library: Path) -> Library:
     """Not by the fixture `library`, which keeps libraries by name: a hand-written model has the same name."""
     model = generate(modelica_library, "OverrunHitch.Systems.CarTrailer")
-    return compile_model(model, tmp_path_factory.mktemp("CarTrailer"))  # type: ignore[arg-type]
+    return compile_model(model)  # type: ignore[arg-type]
 
 
 def drive(library: Library, parameters: Parameters, points: Floats) -> tuple[Floats, Counters, Floats]:
@@ -119,7 +120,7 @@ def table(figure: str, runs: list[Run], free: Counters, oracle: radau.Trajectory
     return "\n".join(lines)
 
 
-@pytest.mark.parametrize("figure", ["6a", "8", "10"])
+@pytest.mark.parametrize("figure", sampled(["6a", "8", "10"], ["8", "10"]))
 def test_error_steps_and_events_for_any_communication_steps(car_trailer: Library, figure: str) -> None:
     """Figures with many events, with none, and with clearance: the error is flat, and so is the number of steps.
 

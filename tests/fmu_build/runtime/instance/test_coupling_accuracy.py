@@ -69,6 +69,7 @@ def test_the_error_falls_with_the_third_power_of_the_step(unit: Create) -> None:
     assert np.abs(error(unit, 0.01, 3.0)).max() < 1e-3 * np.abs(error(unit, 0.01, 3.0, extrapolation=0.0)).max()
 
 
+@pytest.mark.full
 def test_the_error_does_not_grow_in_a_thousand_seconds(unit: Create) -> None:
     """The motion is periodic by then (in pi / 5, about)."""
     early = max(np.abs(error(unit, 0.02, end)[:2]).max() for end in (19.0, 19.4, 19.8, 20.2))

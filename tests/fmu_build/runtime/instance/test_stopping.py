@@ -12,6 +12,7 @@ import pytest
 
 from tests.fmu_build.runtime.generated_models import generate
 from tests.fmu_build.runtime.runtime_unit import OK, Counters, Library, Unit, compile_model
+from tests.sampling import sampled, spread
 
 STEP = 0.01  # s
 BEYOND = 10.0  # s
@@ -22,9 +23,9 @@ TORQUES = {1.0: (2000.0, 4000.0), 0.3: (900.0, 1600.0)}  # N.m, by friction
 
 
 @pytest.fixture(scope="module")
-def car_trailer(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> Library:
+def car_trailer(modelica_library: Path) -> Library:
     model = generate(modelica_library, "OverrunHitch.Systems.CarTrailer")
-    return compile_model(model, tmp_path_factory.mktemp("CarTrailer"))  # type: ignore[arg-type]
+    return compile_model(model)  # type: ignore[arg-type]
 
 
 def tries(counters: Counters) -> int:
@@ -50,7 +51,7 @@ def stop(library: Library, **values: float) -> tuple[np.ndarray, list[Counters]]
         unit.free()
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", sampled(range(12), [0, 1, 2]))
 def test_rough_input_around_standstill(car_trailer: Library, seed: int) -> None:
     """A minute of brake torques and grades that jump every 0.1 s, options at random: no error, few steps and events."""
     random = np.random.default_rng(seed)
@@ -104,10 +105,9 @@ def check_stop(library: Library, rest_within: float, rate: float = 12.0, dying: 
     np.testing.assert_array_less(np.abs(rows[stopped:, 2] - rows[-1, 2]), 1e-5)
 
 
-@pytest.mark.parametrize("grade", [-0.1, 0.0, 0.1])
-@pytest.mark.parametrize("mu", TORQUES)
-@pytest.mark.parametrize("eps", [0.0, 0.1])
-@pytest.mark.parametrize("C", [0.0, 100.0, 500.0, 3200.0])
+@pytest.mark.parametrize(
+    ("C", "eps", "mu", "grade"), spread([0.0, 100.0, 500.0, 3200.0], [0.0, 0.1], TORQUES, [-0.1, 0.0, 0.1])
+)
 def test_a_stop(car_trailer: Library, C: float, eps: float, mu: float, grade: float) -> None:
     for torque in TORQUES[mu]:
         if mu == 0.3 and torque > 1000.0 and grade < 0.0:
