@@ -24,7 +24,7 @@ ROOT = Path(__file__).parents[1]
 LIBRARY = ROOT / "modelica" / "OverrunHitch"
 FOLDER = ROOT / "build" / "test-cache"
 LARGEST = 2**30  # bytes that stay; what was used longest ago goes first
-PACKAGES = ("fmpy", "lxml", "matplotlib", "networkx", "numpy", "rumoca", "scipy", "sympy")
+PACKAGES = ("fmpy", "lxml", "matplotlib", "networkx", "nh3", "numpy", "rumoca", "scipy", "sympy")
 SETTINGS = ("CFLAGS", "CPATH", "C_INCLUDE_PATH", "LIBRARY_PATH")  # environment variables that change what cc does
 DIGEST = "digest"
 
