@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 # Matrices here are tiny, and the tests keep every core busy by themselves. Read when numpy is imported, below.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -15,6 +16,10 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 from fmu_build.fmu.compile import compiler
 from overrun_hitch.fmu.messages import listening
 from tests.kept import LIBRARY, kept_fmus, prune
+
+# How long an example takes is the machine's affair.
+settings.register_profile("without deadline", deadline=None)
+settings.load_profile("without deadline")
 
 ROOT = Path(__file__).parents[1]
 

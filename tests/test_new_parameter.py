@@ -74,6 +74,7 @@ def test_a_run_at_the_default_agrees_with_theory(project: Path) -> None:
     assert said.count("agrees") == 5 and "not judged" not in said
 
 
+@pytest.mark.full
 def test_a_run_off_the_default_is_not_judged(project: Path) -> None:
     said = hitch(project, "run", "--set", "g_new=0.2")
     assert said.count("not judged") == 6 and "not judged: g_new = 0.2 is beyond linear theory" in said
@@ -89,6 +90,7 @@ def test_a_value_out_of_range_is_told_in_one_line(project: Path) -> None:
     assert "g_new = -1 1 is not allowed: factor on the damper coefficient must be" in done.stderr
 
 
+@pytest.mark.full
 def test_a_sweep_goes_over_it(project: Path) -> None:
     (project / "spec.toml").write_text('name = "new"\nmetrics = ["growth_rate"]\ngrid = {g_new = [0.2, 1.0, 2.0]}\n')
     said = hitch(project, "sweep", "spec.toml", "--workers", "1")
@@ -97,6 +99,7 @@ def test_a_sweep_goes_over_it(project: Path) -> None:
     assert least < median < greatest < 0.0
 
 
+@pytest.mark.full
 def test_linear_stability_is_what_it_was(project: Path) -> None:
     found = json.loads(hitch(project, "stability", "--json", "--set", "g_new=3"))
     output = str(project / "build" / "without")
@@ -106,6 +109,7 @@ def test_linear_stability_is_what_it_was(project: Path) -> None:
     assert {key: found[key] for key in found.keys() - told} == {key: before[key] for key in before.keys() - told}
 
 
+@pytest.mark.full
 def test_the_pair_takes_it(project: Path) -> None:
     """The trailer damps as the model in one piece: with another value the growth rate would be 0.7 1/s off."""
     said = hitch(project, "couple", "--set", "g_new=0.5", "--set", "C=1000", "--H", "0.02")
