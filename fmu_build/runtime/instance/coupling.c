@@ -6,43 +6,31 @@
 #include <string.h>
 
 #include "advance.h"
+#include "coupling_exchange.h"
 #include "coupling_values.h"
 #include "finite.h"
 #include "lu.h"
 #include "settle.h"
 
-/* A change of u over a step so much shorter than the next one is mostly rounding: the slope stays what it was. */
+/* A change of u over an exchange so much shorter than the next one is mostly rounding: the slope stays what it was. */
 static const double TELLING = 1e-6;
-
-/* What is owed is paid back over the longest of the last steps, each step forgetting so much. After one short step the
- * debt of long ones must not be asked for at once: the force of that would be held over a long step. */
-static const double MEMORY = 0.9;
 
 static double *across(State *s) { return &s->v.at[coupling_info.across]; }
 
-static void begin_first(State *s)
-{
-    Coupling *c = &s->coupling;
-    c->through = c->hold = s->v.at[coupling_info.through];
-    c->impulse = s->v.at[coupling_info.impulse];
-    c->work = s->v.at[coupling_info.work];
-}
-
-/* u was wrong by `error` at the end of the last step. On the way there, at the share s of the step, it was wrong by
- * error ((1 - q) s + q s^2): q is 0 if u was held while it moved steadily, 1 if its slope was right at the start, in
- * between if the slope was that of the step before. The integral of this, times df/du, is what the states lack; how
+/* u was wrong by `error` at the end of an exchange of this size. On the way there, at the share s of it, it was wrong
+ * by error ((1 - q) s + q s^2): q is 0 if u was held while it moved steadily, 1 if its slope was right at the start, in
+ * between if the slope was that of the exchange before. The integral of this, times df/du, is what the states lack; how
  * that has gone on until now is right to second order, and bounded where the model is stiff. */
-static void correct(Instance *instance, double error)
+static void correct(Instance *instance, double error, double size)
 {
     State *s = &instance->state;
     Rodas *r = &instance->rodas; /* room for the work */
-    const Coupling *c = &s->coupling;
-    const double q = c->size / (c->size + c->span);
+    const double q = size / (size + s->coupling.span);
     Variables d = {.at = {0.0}};
-    d.at[coupling_info.across] = error * c->size * (0.5 - q / 6.0);
+    d.at[coupling_info.across] = error * size * (0.5 - q / 6.0);
     model_tangent(&s->v, s->holds, false, &d);
     model_jacobian(&s->v, s->holds, r->jacobian, r->time_derivative);
-    const double per_lag = (6.0 - 2.0 * q) / (c->size * (2.0 - q));
+    const double per_lag = (6.0 - 2.0 * q) / (size * (2.0 - q));
     if (!lu_factorize(r->jacobian, per_lag, r->factors)) {
         return;
     }
@@ -57,7 +45,53 @@ static void correct(Instance *instance, double error)
     }
 }
 
-/* The slope of u that is expected, and over which time before the step it has been observed. */
+static void put(State *s, double value)
+{
+    if (*across(s) != value) {
+        *across(s) = value;
+        s->settled = s->current = false;
+    }
+}
+
+/* Inside an exchange u goes on, whether or not its value has been set again. */
+static void go_on(State *s)
+{
+    Coupling *c = &s->coupling;
+    c->parted = true;
+    put(s, c->across);
+    if (c->across != c->now.across) {
+        integrator_discontinuity(&s->integrator);
+    }
+}
+
+/* Settle the exchange that ends here, now that u is known, and begin the next one. */
+static void exchange(Instance *instance, double size)
+{
+    State *s = &instance->state;
+    const Coupling *c = &s->coupling;
+    const double impulse = s->v.at[coupling_info.impulse];
+    const double error = *across(s) - c->across;
+    coupling_exchange_review(s, size);
+    if (error != 0.0 && s->v.at[coupling_info.extrapolate] > 0.5) {
+        correct(instance, error, s->v.time - c->now.time);
+    }
+    coupling_exchange_next(s, impulse);
+}
+
+static void begin_first(State *s)
+{
+    Coupling *c = &s->coupling;
+    c->through = c->hold = s->v.at[coupling_info.through];
+    c->now = (Exchange){.time = s->v.time,
+                        .across = *across(s),
+                        .through = c->through,
+                        .hold = c->hold,
+                        .impulse = s->v.at[coupling_info.impulse],
+                        .work = s->v.at[coupling_info.work]};
+    c->change = c->now;
+}
+
+/* The slope of u that is expected, and over which time before the exchange it has been observed. */
 static double expected_slope(const State *s, double size, double *span)
 {
     const Coupling *c = &s->coupling;
@@ -70,60 +104,74 @@ static double expected_slope(const State *s, double size, double *span)
         *span = (double)INFINITY;
         return 0.0;
     }
-    if (c->size < TELLING * size) {
-        *span = c->span;
-        return s->ramp.slope[coupling_info.across - FIRST_INPUT];
+    if (s->v.time > c->now.time || c->interval < TELLING * size) {
+        return c->slope;
     }
-    *span = c->size;
-    return (s->v.at[coupling_info.across] - c->start) / c->size;
+    *span = c->interval;
+    return (c->now.across - c->before) / c->interval;
 }
 
 static void incline(State *s, double size)
 {
     const int input = (int)coupling_info.across - FIRST_INPUT;
     Coupling *c = &s->coupling;
-    c->moves = s->ramp.over || !s->ramp.given[input];
-    c->span = 0.0;
-    if (c->moves) {
-        const double slope = expected_slope(s, size, &c->span);
-        if (slope != 0.0 && isfinite(slope)) {
-            ramp_set(&s->ramp, input, slope);
-        }
+    c->moves = !coupling_exchange_has_slope(s);
+    if (!c->moves) {
+        c->span = 0.0;
+        c->slope = s->ramp.slope[input];
+        return;
+    }
+    const double slope = expected_slope(s, size, &c->span);
+    c->slope = isfinite(slope) ? slope : 0.0;
+    if (c->slope != 0.0) {
+        ramp_set(&s->ramp, input, c->slope);
     }
 }
 
-bool coupling_begin(Instance *instance, double size, Message *why)
+/* Find where u is at the start of a step of `size`. False: why the instance cannot be there. */
+static bool take_up(Instance *instance, double size, Message *why)
 {
     State *s = &instance->state;
     Coupling *c = &s->coupling;
-    if (c->stepped && c->moves && !c->is_set && *across(s) != c->start) { /* it was not the caller who moved it */
-        *across(s) = c->start;
-        s->settled = s->current = false;
+    if (coupling_exchange_goes_on(s, size)) {
+        go_on(s);
+        return settle_variables(instance, why);
+    }
+    if (c->moves && !c->is_set && *across(s) != c->now.across) { /* it was not the caller who moved it */
+        put(s, c->now.across);
         integrator_discontinuity(&s->integrator);
     }
     if (!settle_variables(instance, why)) {
         return false;
     }
-    if (!c->stepped) {
-        begin_first(s);
-    } else if (c->pending) {
-        const double error = *across(s) - c->expected;
-        const bool corrects = s->v.at[coupling_info.extrapolate] > 0.5;
-        if (error != 0.0 && corrects) {
-            correct(instance, error);
+    if (s->v.time > c->now.time) {
+        exchange(instance, size);
+    } else { /* the last step has come to an end at once */
+        c->now.across = *across(s);
+        c->change.across = c->stands ? c->change.across : c->now.across;
+    }
+    return true;
+}
+
+bool coupling_begin(Instance *instance, double size, Message *why)
+{
+    State *s = &instance->state;
+    if (s->coupling.stepped) {
+        if (!take_up(instance, size, why)) {
+            return false;
         }
-        const double work = s->v.at[coupling_info.work];
-        c->energy += c->applied * c->size * 0.5 * (c->start + *across(s)) - (work - c->work);
-        c->work = work;
-        c->pending = false;
+    } else if (settle_variables(instance, why)) {
+        begin_first(s);
+    } else {
+        return false;
     }
     incline(s, size);
-    c->next_start = *across(s);
     return settle_truths(instance, why);
 }
 
-/* The mean over one more step as long as the last one, with the inputs moving on: the state goes there and back. */
-static double predict(Instance *instance)
+/* The mean over one more exchange as long as the present one, with the inputs moving on: the state goes there and back.
+ */
+static double predict(Instance *instance, double size)
 {
     static const StepOptions alone = {0};
     State *s = &instance->state;
@@ -138,8 +186,8 @@ static double predict(Instance *instance)
     s->event_waits = false;
     s->ramp.over = false;
     ramp_begin(&s->ramp, &s->v);
-    events_watch(&s->density, start, start + s->coupling.size);
-    if (advance_to(instance, start + s->coupling.size, &alone, &why) && s->v.time > start) {
+    events_watch(&s->density, start, start + size);
+    if (advance_to(instance, start + size, &alone, &why) && s->v.time > start) {
         mean = (s->v.at[coupling_info.impulse] - impulse) / (s->v.time - start);
     }
     instance->logs[LOG_EVENT] = logs;
@@ -151,21 +199,15 @@ void coupling_end(Instance *instance, double start)
 {
     State *s = &instance->state;
     Coupling *c = &s->coupling;
-    const double size = s->v.time - start;
-    if (size > 0.0) { /* otherwise nothing has been transmitted: an event at the start has ended the step */
-        const double transmitted = s->v.at[coupling_info.impulse] - c->impulse;
-        const double choice = s->v.at[coupling_info.applied];
-        c->mean = transmitted / size;
-        c->applied = choice < 1.5 ? c->through : choice < 2.5 ? c->mean : c->hold;
-        c->owed += choice >= 1.5 && choice < 2.5 ? 0.0 : transmitted - size * c->applied;
-        c->size = size;
-        c->period = fmax(size, MEMORY * c->period);
-        c->start = c->next_start;
-        c->expected = *across(s);
+    if (s->v.time > start) { /* otherwise nothing has been transmitted: an event at the start has ended the step */
+        const double size = s->v.time - c->now.time;
+        const double impulse = s->v.at[coupling_info.impulse];
+        c->mean = (impulse - c->now.impulse) / size;
+        c->across = *across(s);
         c->through = s->v.at[coupling_info.through];
-        c->impulse = s->v.at[coupling_info.impulse];
-        c->hold = predict(instance) + c->owed / c->period;
-        c->stepped = c->pending = true;
+        const Exchange next = coupling_exchange_after(s, &c->now, impulse);
+        c->hold = predict(instance, size) + next.owed / next.period;
+        c->stepped = true;
         c->is_set = false;
     }
     coupling_values_show(s);

@@ -13,7 +13,7 @@ void coupling_values_show(State *s)
     if (c->stepped) { /* until then they are what the model's equations make them */
         s->v.at[coupling_info.mean] = c->mean;
         s->v.at[coupling_info.hold] = c->hold;
-        s->v.at[coupling_info.energy] = c->energy;
+        s->v.at[coupling_info.energy] = c->now.energy;
     }
 }
 

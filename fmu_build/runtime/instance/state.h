@@ -33,26 +33,40 @@ typedef enum { LOG_ERROR, LOG_WARNING, LOG_EVENT, N_LOG_CATEGORIES } LogCategory
 
 typedef void LogFunction(void *receiver, LogCategory category, Status status, const char *message);
 
-/* What a coupling remembers, see coupling.h: at first of the last step that has led on in time. */
+/* Where an exchange of a coupling begins, and its accounts until then. */
 typedef struct {
-    bool stepped; /* there has been one */
-    bool pending; /* u at its end is not known yet, nor what the coupling has made of it */
-    bool moves;   /* the slope of u in it was the unit's own, so that the end is not a value that the caller has set */
-    bool is_set;  /* u has been set since */
-    double size;  /* its length */
-    double span;  /* the time before it from which the slope was taken: 0: it was given, INFINITY: there was none */
-    double start; /* u at its start */
-    double expected; /* u at its end, as the slope has it */
-    double applied;  /* what the master has applied over it */
-    double work;     /* at its start */
-    double impulse;  /* at its end, as are those that follow */
+    double time;
+    double across;  /* u there, as the caller has it */
+    double through; /* what the master can apply from here on: the force there */
+    double hold;    /* or the one to hold */
+    double impulse;
+    double work;
+    double owed;   /* the impulse transmitted so far less the one applied */
+    double energy; /* that the coupling has made so far */
+    double period; /* the longest of the last exchanges */
+} Exchange;
+
+/* What a coupling remembers, see coupling.h. */
+typedef struct {
+    bool stepped; /* there has been a step that led on in time */
+    bool moves;  /* the slope of u in the last one was the unit's own, so that its end is not what the caller has set */
+    bool is_set; /* u has been set since */
+    bool stands; /* the present exchange has begun with the value of the one before */
+    bool parted; /* it has had more than one step */
+    bool several;    /* and so had one of the last ones before it */
+    Exchange now;    /* the present one */
+    Exchange change; /* the last one that has begun with a new value */
+    double before;   /* u at the start of the exchange before the present one */
+    double interval; /* the length of that one; 0: there was none */
+    double usual;    /* the longest of the last ones from change to change; 0: there was none */
+    int doubts;      /* for so many more changes a value that stands is taken for one that is held */
+    double slope;    /* of u in the last step */
+    double span;     /* the time before the present one from which it was taken: 0: given, INFINITY: there was none */
+    /* At the end of the last step: */
+    double across; /* u as the slope has it */
     double through;
     double mean;
     double hold;
-    double owed; /* the impulse transmitted so far less the one applied */
-    double energy;
-    double period;     /* the longest of the last steps */
-    double next_start; /* u at the start of the step that is being made */
 } Coupling;
 
 /* An integrator step that leads beyond the communication point. As long as nothing is set, the next communication

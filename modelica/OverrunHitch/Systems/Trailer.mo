@@ -76,8 +76,8 @@ equation
 <code>grade</code> is positive uphill.</p>
 <h2>Coupling</h2>
 <p>In Co-Simulation values are exchanged at the ends of steps only. Inside a step <code>v_car</code> goes on with the
-derivative that the importer sets (FMI 2) or <code>a_car</code>, where one is given, otherwise as it changed over the
-last step, unless <code>extrapolation</code> is 0. When the true speed is known the states are corrected for the
+derivative that the importer sets (FMI 2) or <code>a_car</code>, where one is given, otherwise as it changed between
+the last two exchanges, unless <code>extrapolation</code> is 0. When the true speed is known the states are corrected for the
 difference.</p>
 <p>Three forces are offered, for three ways to step. <code>F_hitch_hold</code> is for a car that makes its step at the
 same time and holds the force over it: the mean force that is expected over that step, and what was not applied so far.
