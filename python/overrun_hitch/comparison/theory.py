@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 
 from overrun_hitch.measure.judged import Judged
-from overrun_hitch.measure.oscillation import NoOscillation, Oscillation, measure
+from overrun_hitch.measure.oscillation import NoOscillation, Oscillation, fitting, measure
 from overrun_hitch.measure.passages import compressed_from
 from overrun_hitch.parameters import HitchError, Parameters
 from overrun_hitch.results import scenario_of, values
@@ -74,11 +74,11 @@ class _Run:
 def compare(run: xr.Dataset, alone: xr.Dataset) -> list[Judged]:
     """Judge a step brake; `alone` is the same one with the car alone (run.car_alone), for A_c.
 
-    Growth rate (1/s) and frequency (Hz) are means over the window that was fitted, theory's of the eigenvalue at the
-    simulated speed of the car; then the paper's A (m/s2), A / A_c (1) and D (m).
+    Growth rate (1/s) and frequency (Hz) are means over the window that was fitted (NaN where no exponential fits),
+    theory's of the eigenvalue at the simulated speed of the car; then the paper's A (m/s2), A / A_c (1) and D (m).
     """
     part = _settled_part(run)
-    found = _oscillation(part)
+    found = fitting(_oscillation(part))
     return [*_mode_rows(part, part.window, found), *_steady_rows(part, found, run, alone)]
 
 
@@ -135,7 +135,7 @@ def _mode_rows(part: _Run, window: slice, found: Oscillation | NoOscillation) ->
         if not part.mode.oscillates[window].all():
             reason = reason or "the shunting mode is overdamped"
     if isinstance(found, NoOscillation):
-        reason = reason or found.reason
+        reason = f"{reason}; {found.reason}" if found.misfit and reason else reason or found.reason
     measured = (found.growth_rate, found.frequency) if isinstance(found, Oscillation) else (math.nan, math.nan)
     growth_allowed = GROWTH_RATE_ALLOWED[0] + GROWTH_RATE_ALLOWED[1] * abs(growth)
     return [
@@ -175,7 +175,7 @@ def _steady_values(part: _Run, found: Oscillation | NoOscillation) -> tuple[floa
         return _mean(part.time[tail], part.a_car[tail]), _mean(part.time[tail], part.compression[tail]), reason
     if part.stays and isinstance(found, Oscillation):
         return found.offset_of(part.time[part.window], part.a_car[part.window]), found.offset, reason
-    reason = reason or "the run ends before the motion has settled"
+    reason = reason or "the run is too short to judge: it ends before the motion has settled"
     return _mean(part.time, part.a_car), _mean(part.time, part.compression), reason
 
 

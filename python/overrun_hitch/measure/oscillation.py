@@ -61,12 +61,14 @@ class NoOscillation:
     """Why a trace could not be measured, in words that fit after "not judged:"."""
 
     reason: str
+    misfit: bool = False  # it oscillates, but not as an exponential
 
 
 def fitting(found: Oscillation | NoOscillation) -> Oscillation | NoOscillation:
     """The same, but none where the fit leaves more than FITS: such a motion has no growth rate."""
     if isinstance(found, Oscillation) and not found.residual <= FITS:
-        return NoOscillation(f"no exponential fits the oscillation: it leaves {found.residual:.2g}, over {FITS:g}")
+        reason = f"no exponential fits the oscillation: it leaves {found.residual:.2g}, over {FITS:g}"
+        return NoOscillation(reason, misfit=True)
     return found
 
 
