@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
+from overrun_hitch.commands.hints import hint
 from overrun_hitch.commands.numbers import evenly, numbers
 from overrun_hitch.commands.options import ParametersOption, SetOption, asked_changes, file_stem, name_with
 from overrun_hitch.parameters import CASES, DATUM, Parameters, named
@@ -54,6 +55,7 @@ def stability(
 
     with terminal.patience("Solving for the modes"):
         result = analyse(name, changed, dampers, speeds, deceleration)
+    hint(changed.changed({"V_0": max(speeds)}))
     stem = output / file_stem(name)
     paths = [stem.with_name(f"{stem.name}.{kind}") for kind in ("csv", "png", "svg")]
     with terminal.patience("Drawing"):

@@ -181,7 +181,7 @@ def _rows(study: Study, figure: str) -> dict[str, Judged]:
 
 
 def _measured(study: Study, figure: str) -> tuple[float, float]:
-    """Growth rate (1/s) and frequency (Hz) of the oscillation, though that of 6b is no exponential: its fit leaves 7 %."""
+    """Growth rate (1/s) and frequency (Hz) of the oscillation, though 6b's is no exponential: the fit leaves 7 %."""
     found, _ = shunting(study.runs[figure])
     return (found.growth_rate, found.frequency) if isinstance(found, Oscillation) else (NOTHING, NOTHING)
 
