@@ -152,7 +152,7 @@ def _confirmed(unit: HitchUnit, parameters: Parameters, V: float) -> tuple[Judge
         mode = measured_mode(unit, parameters, V)
         eigenvalue, residual = mode.eigenvalue, mode.residual
     found = -eigenvalue.real / abs(eigenvalue)
-    allowed = (ALLOWED + rebound_error(parameters, theory)) * theory
+    allowed = (ALLOWED + rebound_error(parameters, V)) * theory
     return Judged(f"damping ratio at {V:.4g} m/s", "1", theory, found, allowed), residual
 
 

@@ -8,16 +8,12 @@ from pathlib import Path
 
 from overrun_hitch.modes.study import Row, Stability
 from overrun_hitch.show.table import Column, Numbers, console, show_rows, show_written
+from overrun_hitch.theory.linear import rebound_error
 
 COLUMNS = (
     Numbers("V", "m/s"), Numbers("C", "N.s/m"), Numbers("growth", "1/s"), Numbers("frequency", "Hz"),
     Numbers("damping\nratio"), Numbers("|x_t/x_c|", "1"), Numbers("phase", "deg"), Column(),
 )  # fmt: skip
-
-EQUIVALENTS = {
-    "rebound": "a damper of (1 + rebound)/2 C, equal in energy a cycle; growth may be off by "
-    "2 ((rebound - 1)/(rebound + 1) damping ratio)^2 of itself"
-}
 
 
 def show(result: Stability, paths: Sequence[Path]) -> None:
@@ -46,8 +42,12 @@ def _remarks(result: Stability) -> Iterable[str]:
         yield f"small motions about {about}: {slope}, which holds from {low:.4g} m of compression {until}"
     if "mu" in p.off_default("small"):
         yield f"mu = {p.mu:g}: tyre stiffness C_kc = {point.linear.C_kc:.6g} N, C_kt = {point.linear.C_kt:.6g} N there"
-    for name in result.approximate:
-        yield f"approximate for {name} = {getattr(p, name):g}: {EQUIVALENTS[name]}"
+    if "rebound" in result.approximate:
+        error = max(rebound_error(point.linear.changed({"C": row.C}), row.V) for row in result.rows)
+        yield (
+            f"approximate for rebound = {p.rebound:g}: a damper of (1 + rebound)/2 C, equal in energy a cycle; "
+            f"where the mode oscillates, the damping ratio is off by {error:.1g} of itself or less"
+        )
 
 
 def _sentence(row: Row) -> str:

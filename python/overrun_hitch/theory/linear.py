@@ -185,14 +185,18 @@ def shunting_mode(parameters: Parameters, V: ArrayLike) -> ShuntingMode:
     return ShuntingMode(eigenvalue=value.reshape(speed.shape), shape=shape.reshape(speed.shape))
 
 
-def rebound_error(parameters: Parameters, damping_ratio: float) -> float:
-    """What one damper instead of two may cost of growth and damping ratio, relative (1).
+def rebound_error(parameters: Parameters, V: float) -> float:
+    """What taking one damper for two may cost of the damping ratio at V (m/s), relative (1).
 
-    Half a cycle on either damper, each with its own decrement: of a mass on a spring the mean is off by 1.5 times the
-    square of half the difference of the damping ratios. 2 covers what tyres take from the damper's share.
+    A mass on a spring spends half a cycle on either damper, each with its own decrement. With z the damping ratio that
+    the equivalent damper would give it, the whole is off by 1.5 ((rebound - 1)/(rebound + 1) z)^2 to first order; 2
+    covers what lies beyond, up to z = 0.2.
     """
-    contrast = (parameters.rebound - 1.0) / (parameters.rebound + 1.0)
-    return 2.0 * (contrast * damping_ratio) ** 2
+    p = parameters
+    omega = float(np.abs(shunting_mode(p, V).eigenvalue))
+    inverse_mass = 1.0 / (p.M_c + p.I_c / p.R_c**2) + 1.0 / (p.M_t + p.I_t / p.R_t**2)
+    z = 0.5 * p.C * (1.0 + p.rebound) * inverse_mass / (2.0 * omega)
+    return 2.0 * ((p.rebound - 1.0) / (p.rebound + 1.0) * z) ** 2
 
 
 def wheel_decay_rate(parameters: Parameters, V: float) -> float:
