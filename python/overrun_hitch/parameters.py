@@ -20,9 +20,10 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 # Whose a parameter is: of Car.fmu, of Trailer.fmu, of both, or of Trailer.fmu and making what passes between car and
 # trailer, so that with all of these at 0 the car runs as if alone.
 Owner = Literal["car", "trailer", "both", "link"]
-# What linear theory makes of it: it takes the value, it holds at the default alone, or the value counts only outside of
-# what it speaks of: out of compression, under a threshold, beyond another stiffness, backward, or at the start.
-InTheory = Literal["exact", "neutral", "outside"]
+# What linear theory makes of it (docs/theory.md). exact: takes the value, of stiffnesses that where the drawbar rests.
+# small: exact for motions so small that they stay clear of the limit. approximate: takes a linear equivalent. neutral:
+# holds at the default alone. outside: the value counts only out of compression, backward or at the start.
+InTheory = Literal["exact", "small", "approximate", "neutral", "outside"]
 
 
 class HitchError(ValueError):
@@ -123,29 +124,29 @@ class Parameters(Quantities):
     C_kc: float = quantity(400e3, "N", "braking force per unit slip of the car", "car", "exact", ge=1.0)
     C_kt: float = quantity(200e3, "N", "braking force per unit slip of the trailer", "trailer", "exact", ge=1.0)
     k: float = quantity(5480.0, "N/m", "drawbar stiffness in compression", "link", "exact", ge=0.0)
-    k_t: float = quantity(548e3, "N/m", "drawbar stiffness in tension", "link", "outside", ge=0.0)
+    k_t: float = quantity(548e3, "N/m", "drawbar stiffness in tension", "link", "exact", ge=0.0)
     C: float = quantity(500.0, "N.s/m", "drawbar damper coefficient", "link", "exact", ge=0.0)
     r: float = quantity(
         2.975 * 5480.0, "N.m/m", "trailer brake torque per unit of drawbar compression", "link", "exact", ge=0.0
     )
     eps: float = quantity(0.0, "m", "drawbar clearance", "trailer", "exact", ge=0.0)
     F_pull_max: float = quantity(
-        1e9, "N", "largest pull of the damper in a drawbar that is pushed in", "trailer", "neutral", ge=0.0
+        1e9, "N", "largest pull of the damper in a drawbar that is pushed in", "trailer", "small", ge=0.0
     )
     rebound: float = quantity(
-        1.0, "1", "damper coefficient while the drawbar springs back, over C", "trailer", "neutral", ge=0.0
+        1.0, "1", "damper coefficient while the drawbar springs back, over C", "trailer", "approximate", ge=0.0
     )
-    F_0: float = quantity(0.0, "N", "push up to which the drawbar gives by k_t alone", "link", "outside", ge=0.0)
+    F_0: float = quantity(0.0, "N", "push up to which the drawbar gives by k_t alone", "link", "exact", ge=0.0)
     x_2: float = quantity(1e3, "m", "drawbar compression beyond the clearance from which its stiffness is k_2",
-                          "trailer", "outside", ge=0.0)  # fmt: skip
-    k_2: float = quantity(5480.0, "N/m", "drawbar stiffness from x_2 on", "link", "outside", ge=0.0)
+                          "trailer", "exact", ge=0.0)  # fmt: skip
+    k_2: float = quantity(5480.0, "N/m", "drawbar stiffness from x_2 on", "link", "exact", ge=0.0)
     x_3: float = quantity(1e3, "m", "drawbar compression beyond the clearance from which its stiffness is k_3",
-                          "trailer", "outside", ge=0.0)  # fmt: skip
-    k_3: float = quantity(5480.0, "N/m", "drawbar stiffness from x_3 on", "link", "outside", ge=0.0)
-    travel: float = quantity(1e3, "m", "drawbar compression at which it meets the buffer", "trailer", "outside", ge=0.0)
-    k_buffer: float = quantity(548e3, "N/m", "drawbar stiffness from there on", "link", "outside", ge=0.0)
-    mu: float = quantity(1e9, "1", "friction between tyres and road", "both", "neutral", ge=0.01)
-    sigma: float = quantity(0.0, "m", "relaxation length of the tyres", "both", "neutral", ge=0.0)
+                          "trailer", "exact", ge=0.0)  # fmt: skip
+    k_3: float = quantity(5480.0, "N/m", "drawbar stiffness from x_3 on", "link", "exact", ge=0.0)
+    travel: float = quantity(1e3, "m", "drawbar compression at which it meets the buffer", "trailer", "exact", ge=0.0)
+    k_buffer: float = quantity(548e3, "N/m", "drawbar stiffness from there on", "link", "exact", ge=0.0)
+    mu: float = quantity(1e9, "1", "friction between tyres and road", "both", "small", ge=0.01)
+    sigma: float = quantity(0.0, "m", "relaxation length of the tyres", "both", "exact", ge=0.0)
     CdA_c: float = quantity(0.0, "m2", "drag area of the car", "car", "neutral", ge=0.0)
     CdA_t: float = quantity(0.0, "m2", "drag area of the trailer", "trailer", "neutral", ge=0.0)
     C_rr: float = quantity(0.0, "1", "rolling resistance over load", "both", "neutral", ge=0.0)
@@ -165,7 +166,16 @@ class Parameters(Quantities):
     @property
     def linear_until(self) -> float:
         """Compression (m) up to which, from `gives_from` on, the stiffness is k."""
-        return max(self.gives_from, min(self.eps + min(self.x_2, self.x_3), self.travel))
+        return max(self.gives_from, min(self.eps + self.x_2, self.travel))
+
+    def off_default(self, *values: InTheory) -> tuple[str, ...]:
+        """The parameters that have another value than the default and of which theory makes one of `values`."""
+        return tuple(name for name in self.having("theory", *values) if getattr(self, name) != getattr(DATUM, name))
+
+    @property
+    def known_to_theory(self) -> Parameters:
+        """A copy in which what linear theory does not know has its default."""
+        return self.changed({name: getattr(DATUM, name) for name in self.off_default("neutral")})
 
     def changed(self, changes: Mapping[str, Any]) -> Parameters:
         """A copy with `changes` (name: value); HitchError for an unknown name or a value out of range."""

@@ -67,8 +67,17 @@ def test_every_parameter_says_whose_it_is_and_what_theory_makes_of_it() -> None:
 
 
 def test_what_theory_takes_is_not_what_it_does_not_know() -> None:
-    assert {"M_t", "C", "r", "eps"} <= set(Parameters.having("theory", "exact"))
-    assert {"mu", "sigma", "rebound", "C_rr"} <= set(Parameters.having("theory", "neutral"))
+    assert {"M_t", "C", "r", "eps", "sigma", "k_2"} <= set(Parameters.having("theory", "exact"))
+    assert {"CdA_c", "C_rr"} <= set(Parameters.having("theory", "neutral"))
+    odd = DATUM.changed({"CdA_c": 0.7, "rebound": 3.0, "M_t": 400.0})
+    assert odd.off_default("neutral", "approximate") == ("rebound", "CdA_c")
+    assert odd.known_to_theory == odd.changed({"CdA_c": 0.0})
+
+
+def test_the_stiffness_is_k_up_to_x_2_whatever_x_3() -> None:
+    """An x_3 below x_2 counts as x_2."""
+    assert DATUM.changed({"x_2": 0.05, "x_3": 0.01, "eps": 0.1}).linear_until == pytest.approx(0.15)
+    assert DATUM.changed({"x_3": 0.01, "travel": 0.2}).linear_until == 0.2
 
 
 @given(st.sampled_from(sorted(Parameters.model_fields)), st.floats())

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from overrun_hitch.commands.hints import hint
 from overrun_hitch.commands.numbers import doubling, numbers
 from overrun_hitch.commands.options import ParametersOption, SetOption, asked_changes, file_stem, name_with, our_fmu
 from overrun_hitch.parameters import CASES, named
@@ -45,6 +46,7 @@ def couple(
     one, first, second = (whole or our_fmu(CAR_TRAILER), car or our_fmu(CAR), trailer or our_fmu(TRAILER))
     with terminal.patience("Coupling") as told, opened_unit(one) as unit, opened_pair(first, second) as pair:
         study = study_coupling(pair, unit, changed, V, steps, told)
+    hint(changed.changed({"V_0": V}))
     name = name_with(f"case {case}", base, changed)
     stem = output / file_stem(name)
     table = stem.with_name(f"{stem.name}.csv")

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from overrun_hitch.commands.hints import hint
 from overrun_hitch.commands.numbers import numbers
 from overrun_hitch.commands.options import FmuOption, ParametersOption, SetOption, asked_changes, chosen_fmu, name_with
 from overrun_hitch.parameters import CASES, DATUM, HitchError, Parameters, named
@@ -46,6 +47,7 @@ def optimise(
         base.changed({free: end})
     with terminal.patience("Looking"), opened_unit(chosen_fmu(fmu)) as unit:
         found = search(unit, base, free, low, high, wanted)
+    hint(base.changed({"V_0": V_high}))
     optimise_table.show(name_with("figure 8" if case is None else f"case {case}", start, base), wanted, found)
     return 1 if any(one.differs for one in found.damping) else 0
 

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
+from overrun_hitch.commands.hints import hint
 from overrun_hitch.commands.options import (
     FmuOption,
     ParametersOption,
@@ -52,6 +53,7 @@ def run(
     with terminal.patience("Braking"):
         result = step_brake(scenario, **accuracy)
         rows = compare(result, step_brake(car_alone(scenario), **accuracy))
+    hint(scenario.parameters, scenario.brake_torque)
     stem = output / file_stem(scenario.name)
     table = stem.with_name(f"{stem.name}.csv")
     with terminal.patience("Drawing"):

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
+from overrun_hitch.commands.hints import hint
 from overrun_hitch.commands.numbers import evenly, numbers
 from overrun_hitch.commands.options import ParametersOption, SetOption, asked_changes, file_stem, name_with
 from overrun_hitch.parameters import CASES, DATUM, Parameters, named
@@ -27,6 +28,9 @@ def stability(
     V: Annotated[
         str | None, typer.Option("--V", metavar="m/s", help=f"Speed: 20; 10,20,40; A:B; A:B:N ({SPEED:g}).")
     ] = None,
+    deceleration: Annotated[
+        float, typer.Option(metavar="m/s2", help="Steady braking about which to look (0: gentle).")
+    ] = 0.0,
     json: Annotated[bool, typer.Option("--json", help="Print one JSON document instead of tables.")] = False,
     output: Annotated[Path, typer.Option(help="Folder for the files written.")] = Path("build/stability"),
 ) -> int:
@@ -39,7 +43,8 @@ def stability(
     changed = start.changed(changes)
     dampers, speeds = asked_values(changed, changes, C, V)
     without = start.changed({"C": changed.C, "V_0": changed.V_0})  # they are no part of the name
-    name = name_with("datum" if case is None else f"case {case}", without, changed)
+    others = {"deceleration": deceleration} if deceleration else {}  # no part of the parameters, but of the name
+    name = name_with("datum" if case is None else f"case {case}", without, changed, others)
 
     # Imported here, because SciPy, xarray and matplotlib would slow down `hitch --help` and wrong options.
     from overrun_hitch.modes import figure as stability_figure
@@ -49,7 +54,8 @@ def stability(
     from overrun_hitch.show import files, terminal, traces
 
     with terminal.patience("Solving for the modes"):
-        result = analyse(name, changed, dampers, speeds)
+        result = analyse(name, changed, dampers, speeds, deceleration)
+    hint(changed.changed({"V_0": max(speeds)}))
     stem = output / file_stem(name)
     paths = [stem.with_name(f"{stem.name}.{kind}") for kind in ("csv", "png", "svg")]
     with terminal.patience("Drawing"):

@@ -2,8 +2,8 @@
 
 Theory is linear.py and steady.py, simulation is the traces alone. Linear theory speaks of a drawbar that is in
 compression all the time, so a run whose drawbar starts out of it (a clearance, a threshold) or leaves it is reported,
-not judged. Nor is a run with what theory does not know: a second stiffness reached, or a parameter of parameters.py
-that is declared to be known at its default alone.
+not judged. Nor is a run with what theory does not take exactly however large the motion: a second stiffness reached, or
+a parameter that parameters.py declares small, approximate or neutral.
 
 What may differ, and why:
 
@@ -25,9 +25,9 @@ from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 
 from overrun_hitch.measure.judged import Judged
-from overrun_hitch.measure.oscillation import NoOscillation, Oscillation, measure
+from overrun_hitch.measure.oscillation import NoOscillation, Oscillation, fitting, measure
 from overrun_hitch.measure.passages import compressed_from
-from overrun_hitch.parameters import DATUM, HitchError, Parameters
+from overrun_hitch.parameters import HitchError, Parameters
 from overrun_hitch.results import scenario_of, values
 from overrun_hitch.theory.linear import ShuntingMode, shunting_mode, wheel_decay_rate
 from overrun_hitch.theory.steady import steady
@@ -74,11 +74,11 @@ class _Run:
 def compare(run: xr.Dataset, alone: xr.Dataset) -> list[Judged]:
     """Judge a step brake; `alone` is the same one with the car alone (run.car_alone), for A_c.
 
-    Growth rate (1/s) and frequency (Hz) are means over the window that was fitted, theory's of the eigenvalue at the
-    simulated speed of the car; then the paper's A (m/s2), A / A_c (1) and D (m).
+    Growth rate (1/s) and frequency (Hz) are means over the window that was fitted (NaN where no exponential fits),
+    theory's of the eigenvalue at the simulated speed of the car; then the paper's A (m/s2), A / A_c (1) and D (m).
     """
     part = _settled_part(run)
-    found = _oscillation(part)
+    found = fitting(_oscillation(part))
     return [*_mode_rows(part, part.window, found), *_steady_rows(part, found, run, alone)]
 
 
@@ -94,11 +94,12 @@ def _oscillation(part: _Run) -> Oscillation | NoOscillation:
 
 def _settled_part(run: xr.Dataset) -> _Run:
     p = scenario_of(run).parameters
+    known = p.known_to_theory
     time, compression = values(run, "time"), values(run, "compression")
     rate = values(run, "v_trailer") - values(run, "v_car")
     entry, stays, sentence = compressed_from(time, compression, rate, p.gives_from, p.linear_until)
     try:
-        start = max(entry, WHEELS_SETTLED / max(wheel_decay_rate(p, p.V_0), 1e-9))
+        start = max(entry, WHEELS_SETTLED / max(wheel_decay_rate(known, p.V_0), 1e-9))
         mode_exists = True
     except HitchError:
         start, mode_exists = entry, False
@@ -111,15 +112,15 @@ def _settled_part(run: xr.Dataset) -> _Run:
         a_car=values(run, "a_car")[after],
         compression=compression[after],
         slip=float(np.abs([values(run, "slip_car")[after], values(run, "slip_trailer")[after]]).max()),
-        mode=shunting_mode(p, v_car) if mode_exists else None,
+        mode=shunting_mode(known, v_car) if mode_exists else None,
         stays=stays,
         not_linear=_beyond_theory(p) or sentence,
     )
 
 
 def _beyond_theory(p: Parameters) -> str:
-    """The first parameter that is not neutral and that theory does not know; "" if there is none."""
-    changed = [name for name in Parameters.having("theory", "neutral") if getattr(p, name) != getattr(DATUM, name)]
+    """The first parameter that is not neutral and does not hold for large motions; "" if there is none."""
+    changed = p.off_default("small", "approximate", "neutral")
     return f"{changed[0]} = {getattr(p, changed[0]):g} is beyond linear theory" if changed else ""
 
 
@@ -134,7 +135,7 @@ def _mode_rows(part: _Run, window: slice, found: Oscillation | NoOscillation) ->
         if not part.mode.oscillates[window].all():
             reason = reason or "the shunting mode is overdamped"
     if isinstance(found, NoOscillation):
-        reason = reason or found.reason
+        reason = f"{reason}; {found.reason}" if found.misfit and reason else reason or found.reason
     measured = (found.growth_rate, found.frequency) if isinstance(found, Oscillation) else (math.nan, math.nan)
     growth_allowed = GROWTH_RATE_ALLOWED[0] + GROWTH_RATE_ALLOWED[1] * abs(growth)
     return [
@@ -174,7 +175,7 @@ def _steady_values(part: _Run, found: Oscillation | NoOscillation) -> tuple[floa
         return _mean(part.time[tail], part.a_car[tail]), _mean(part.time[tail], part.compression[tail]), reason
     if part.stays and isinstance(found, Oscillation):
         return found.offset_of(part.time[part.window], part.a_car[part.window]), found.offset, reason
-    reason = reason or "the run ends before the motion has settled"
+    reason = reason or "the run is too short to judge: it ends before the motion has settled"
     return _mean(part.time, part.a_car), _mean(part.time, part.compression), reason
 
 

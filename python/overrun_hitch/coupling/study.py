@@ -18,7 +18,6 @@ from overrun_hitch.fmu.messages import StepRefused
 from overrun_hitch.fmu.unit import HitchUnit
 from overrun_hitch.measure.oscillation import NoOscillation, measure
 from overrun_hitch.parameters import HitchError, Parameters
-from overrun_hitch.theory.linear import shunting_mode
 from overrun_hitch.theory.steady import steady
 
 DURATION = 6.0  # s
@@ -78,16 +77,16 @@ def check_step(H: float) -> None:
         raise HitchError(f"H = {H:g} s is not allowed: the step must be greater than 0 s, at most {LONGEST_STEP:g} s")
 
 
-def longest_stable_step(scheme: Scheme, parameters: Parameters, V: float) -> float:
+def longest_stable_step(scheme: Scheme, parameters: Parameters, growth_rate: float) -> float:
     """The step (s) at which this scheme makes the combination shunt by itself, by the closed form (light damping).
 
-    0 where it does so without any coupling, infinite where the scheme delays nothing to first order.
+    growth_rate (1/s) is that in one piece. 0 where it shunts without any coupling, infinite where the scheme delays
+    nothing to first order.
     """
-    decay = -float(shunting_mode(parameters, V).growth_rate)
-    if decay <= 0.0:
+    if growth_rate >= 0.0:
         return 0.0
     rise = rise_per_second(scheme, parameters)
-    return decay / rise if rise > 0.0 else math.inf
+    return -growth_rate / rise if rise > 0.0 else math.inf
 
 
 def rise_per_second(scheme: Scheme, parameters: Parameters) -> float:

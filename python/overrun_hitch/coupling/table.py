@@ -26,7 +26,9 @@ def show(name: str, study: CouplingStudy, paths: Sequence[Path]) -> None:
     rows = (_cells(study, scheme, steps) for scheme in SCHEMES)
     show_rows(out, columns, rows, (_sentence(study, point) for point in study.points))
     for scheme in SCHEMES:
-        out.print(f"{scheme.name}: {scheme.what}; {_bears(longest_stable_step(scheme, study.parameters, study.V))}")
+        out.print(
+            f"{scheme.name}: {scheme.what}; {_bears(longest_stable_step(scheme, study.parameters, whole.growth_rate))}"
+        )
     show_written(out, paths)
 
 

@@ -1,18 +1,20 @@
 """The smallest value of one parameter with which the shunting mode is damped as wanted at every speed of a range.
 
-Linear theory finds it, the FMU confirms it by free vibrations (free_vibration.py) and tells what it costs.
+Linear theory finds it, for small motions about gentle braking; the FMU confirms it by free vibrations
+(free_vibration.py) and tells what it costs.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq, minimize_scalar
 
-from overrun_hitch.experiments.free_vibration import measured_mode
+from overrun_hitch.experiments.free_vibration import measured_decay, measured_mode
 from overrun_hitch.experiments.step_brake import brake
 from overrun_hitch.fmu.settings import Settings
 from overrun_hitch.fmu.unit import HitchUnit
@@ -20,7 +22,8 @@ from overrun_hitch.measure.judged import Judged
 from overrun_hitch.measure.metrics import NEEDED, Traces, measured
 from overrun_hitch.parameters import HitchError, Parameters, Quantities, Scenario, quantity
 from overrun_hitch.results import values
-from overrun_hitch.theory.linear import shunting_mode
+from overrun_hitch.theory.linear import ShuntingMode, check_known, rebound_error, shunting_mode
+from overrun_hitch.theory.working_point import working_point
 
 Floats = NDArray[np.float64]
 
@@ -30,6 +33,7 @@ COSTS = ("trailer_brake_delay", "peak_jerk", "peak_compression")
 SETTINGS = Settings(relative_tolerance=1e-8, communication_step=0.01)
 # What a measured damping ratio may be off: growth rate and frequency of a free vibration drift with the falling speed.
 ALLOWED = 0.005  # relative
+SAME = 1e-9  # damping ratios closer than that do not differ
 
 
 class Wanted(Quantities):
@@ -41,34 +45,47 @@ class Wanted(Quantities):
 
 
 @dataclass(frozen=True)
+class Smallest:
+    """The smallest value of a range that is enough by linear theory."""
+
+    value: float  # in the parameter's unit
+    worst: float  # m/s, the speed with the least damping there
+    is_edge: bool  # the range begins with it: less may be enough too
+    enough_until: float  # from the value on; infinite where it is up to the end of the range
+
+
+@dataclass(frozen=True)
 class Optimum:
     """What was found."""
 
     name: str  # of the free parameter
+    found: Smallest
     before: Parameters
     after: Parameters
-    worst: float  # m/s, the speed with the least damping
     damping: tuple[Judged, ...]  # at the worst speed and the ends of the range: theory, and the FMU
+    residual: float  # the largest that a fitted vibration leaves (1); NaN: measured by the decrement, not fitted
     costs: Mapping[str, tuple[float, float]]  # metric: before, after; step brake at V_high
 
 
 def optimise(unit: HitchUnit, parameters: Parameters, name: str, low: float, high: float, wanted: Wanted) -> Optimum:
     """The smallest `name` from `low` to `high` (SI units) that is enough, confirmed. HitchError if none is."""
-    value, worst = smallest(parameters, name, low, high, wanted)
-    after = parameters.changed({name: value})
-    speeds = dict.fromkeys((worst, wanted.V_low, wanted.V_high))
+    found = smallest(parameters, name, low, high, wanted)
+    after = parameters.changed({name: found.value})
+    speeds = dict.fromkeys((found.worst, wanted.V_low, wanted.V_high))
+    damping, residuals = zip(*(_confirmed(unit, after, V) for V in speeds), strict=True)
     return Optimum(
         name=name,
+        found=found,
         before=parameters,
         after=after,
-        worst=worst,
-        damping=tuple(_confirmed(unit, after, V) for V in speeds),
+        damping=damping,
+        residual=max(residuals),
         costs=_costs(unit, parameters, after, wanted.V_high),
     )
 
 
-def smallest(parameters: Parameters, name: str, low: float, high: float, wanted: Wanted) -> tuple[float, float]:
-    """By linear theory: the smallest value and the speed (m/s) with the least damping there."""
+def smallest(parameters: Parameters, name: str, low: float, high: float, wanted: Wanted) -> Smallest:
+    """By linear theory. HitchError if no value is enough, or the parameter has no influence."""
     if not wanted.V_low < wanted.V_high:
         raise HitchError(f"speeds from {wanted.V_low:g} to {wanted.V_high:g} m/s are an empty range")
     if not low < high:
@@ -79,6 +96,11 @@ def smallest(parameters: Parameters, name: str, low: float, high: float, wanted:
 
     candidates = np.linspace(low, high, VALUES)
     found = np.array([excess(value) for value in candidates])
+    if np.ptp(found) <= SAME:
+        raise HitchError(
+            f"{name} has no influence: by linear theory the damping ratio is {found[0] + wanted.ratio:.4g} for all "
+            f"{name} from {low:g} to {high:g} {Parameters.unit(name)}"
+        )
     if not (found >= 0.0).any():
         best = int(found.argmax())
         raise HitchError(
@@ -88,18 +110,26 @@ def smallest(parameters: Parameters, name: str, low: float, high: float, wanted:
         )
     first = int((found >= 0.0).argmax())
     value = float(candidates[0]) if first == 0 else float(brentq(excess, candidates[first - 1], candidates[first]))
-    return value, least_damping(parameters.changed({name: value}), wanted)[1]
+    less = np.flatnonzero(found[first:] < 0.0) + first  # beyond, where more is not better
+    until = float(brentq(excess, candidates[less[0] - 1], candidates[less[0]])) if len(less) else math.inf
+    return Smallest(value, least_damping(parameters.changed({name: value}), wanted)[1], first == 0, until)
+
+
+def gentle_mode(parameters: Parameters, V: ArrayLike) -> ShuntingMode:
+    """The shunting mode of small motions about gentle braking at V (m/s). HitchError for what theory does not know."""
+    check_known(parameters)
+    return shunting_mode(working_point(parameters).linear, V)
 
 
 def least_damping(parameters: Parameters, wanted: Wanted) -> tuple[float, float]:
     """The least damping ratio from V_low to V_high and the speed (m/s) at which it is, by linear theory."""
     speeds = np.linspace(wanted.V_low, wanted.V_high, SPEEDS)
-    ratios = shunting_mode(parameters, speeds).damping_ratio
+    ratios = gentle_mode(parameters, speeds).damping_ratio
     place = int(ratios.argmin())
     if place in (0, SPEEDS - 1):
         return float(ratios[place]), float(speeds[place])
     found = minimize_scalar(
-        lambda V: float(shunting_mode(parameters, V).damping_ratio),
+        lambda V: float(gentle_mode(parameters, V).damping_ratio),
         bounds=(speeds[place - 1], speeds[place + 1]),
         method="bounded",
     )
@@ -110,11 +140,20 @@ def least_damping(parameters: Parameters, wanted: Wanted) -> tuple[float, float]
     )
 
 
-def _confirmed(unit: HitchUnit, parameters: Parameters, V: float) -> Judged:
-    theory = float(shunting_mode(parameters, V).damping_ratio)
-    eigenvalue = measured_mode(unit, parameters, V).eigenvalue
+def _confirmed(unit: HitchUnit, parameters: Parameters, V: float) -> tuple[Judged, float]:
+    """Theory and the FMU, and what the fit leaves.
+
+    By the logarithmic decrement where a damper of two rates makes the motion no exponential.
+    """
+    theory = float(gentle_mode(parameters, V).damping_ratio)
+    if parameters.rebound != 1.0:
+        eigenvalue, residual = measured_decay(unit, parameters, V), math.nan
+    else:
+        mode = measured_mode(unit, parameters, V)
+        eigenvalue, residual = mode.eigenvalue, mode.residual
     found = -eigenvalue.real / abs(eigenvalue)
-    return Judged(f"damping ratio at {V:.4g} m/s", "1", theory, found, ALLOWED * theory)
+    allowed = (ALLOWED + rebound_error(parameters, V)) * theory
+    return Judged(f"damping ratio at {V:.4g} m/s", "1", theory, found, allowed), residual
 
 
 def _costs(unit: HitchUnit, before: Parameters, after: Parameters, V: float) -> dict[str, tuple[float, float]]:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
+
 from overrun_hitch.design.optimise import Optimum, Wanted
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.measure.metrics import METRICS
 from overrun_hitch.parameters import Parameters
 from overrun_hitch.show.table import Column, Numbers, Row, coloured, console, number, table
+from overrun_hitch.theory.working_point import working_point
 
 DAMPING = (Column(), *(Numbers(heading) for heading in ("theory", "FMU", "allowed")), Column())
 COSTS = (Column(), Column("unit"), Numbers("before"), Numbers("after"))
@@ -22,10 +26,29 @@ def show(title: str, wanted: Wanted, found: Optimum) -> None:
         f"more from {wanted.V_low:g} to {wanted.V_high:g} m/s",
         soft_wrap=True,
     )
+    for remark in _remarks(found):
+        out.print(remark, soft_wrap=True)
     out.print(table(DAMPING, map(_damping_cells, found.damping)))
+    if math.isfinite(found.residual):
+        out.print(f"the fits of the FMU's vibrations leave {found.residual:.1g} of them at most")
     out.print(f"what it costs, step brake of 1000 N.m at {wanted.V_high:g} m/s:")
     costs = ((name, METRICS[name].unit, f"{old:.4g}", f"{new:.4g}") for name, (old, new) in found.costs.items())
     out.print(table(COSTS, costs))
+
+
+def _remarks(found: Optimum) -> Iterator[str]:
+    """What the number alone does not tell."""
+    name, unit, smallest, after = found.name, Parameters.unit(found.name), found.found, found.after
+    if smallest.is_edge:
+        yield f"{name} = {smallest.value:.6g} {unit} is the edge of the range: whether less is enough was not looked at"
+    if math.isfinite(smallest.enough_until):
+        yield f"more is not better: from {name} = {smallest.enough_until:.4g} {unit} on it is too little again"
+    if after.rebound != 1.0:
+        yield "approximate: theory takes a damper of (1 + rebound)/2 C, and the FMU's is the logarithmic decrement"
+    low, high = working_point(after).reach
+    if math.isfinite(high) or low > after.eps:
+        until = f" to {high:.4g} m" if math.isfinite(high) else " on"
+        yield f"for small motions about gentle braking, from {low:.4g} m of compression{until}"
 
 
 def _damping_cells(one: Judged) -> Row:

@@ -28,6 +28,7 @@ Floats = NDArray[np.float64]
 
 METRICS = ("damping_ratio", "peak_jerk")
 SEED = 1
+NO_DAMPING = "its drawbar does not oscillate, or not as an exponential"
 
 
 class Variation(Quantities):
@@ -79,7 +80,7 @@ def analysed(sweep: xr.Dataset, base: Parameters, variation: Variation) -> Sensi
         values = np.asarray(sweep[metric].values, dtype=np.float64)
         missing = int(np.isnan(values).sum())
         if missing:
-            why = next((str(text) for text in sweep["message"].values if text), "its drawbar does not oscillate")
+            why = next((str(text) for text in sweep["message"].values if text), NO_DAMPING)
             raise HitchError(
                 f"{missing} of {values.size} runs have no {metric}, the first of them because {why}; allowed: "
                 "parameters with which all runs do, or a smaller spread"

@@ -1,7 +1,8 @@
 """The shunting mode as the FMU shows it: a small free vibration about gentle steady braking, fitted.
 
 Gentle, because theory (the paper's section 5) is exact at zero slip: at 0.2 m/s2 the slip is below 0.001, and the speed
-falls by little over a vibration. V is the speed in the middle of the run.
+falls by little over a vibration. Beyond a threshold F_0, which the push exceeds all the time. V is the speed in the
+middle of the run.
 """
 
 from __future__ import annotations
@@ -10,15 +11,19 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
 
 from overrun_hitch.experiments.step_brake import brake
 from overrun_hitch.fmu.settings import Settings
 from overrun_hitch.fmu.unit import HitchUnit
-from overrun_hitch.measure.oscillation import FEWEST_PERIODS, NoOscillation, measure
+from overrun_hitch.measure.envelope import measured_decrement
+from overrun_hitch.measure.oscillation import FEWEST_PERIODS, NoOscillation, fitting, measure
 from overrun_hitch.parameters import HitchError, Parameters, Scenario
 from overrun_hitch.results import values
 from overrun_hitch.theory.linear import shunting_mode
-from overrun_hitch.theory.steady import steady
+from overrun_hitch.theory.steady import inertias, steady
+from overrun_hitch.theory.working_point import working_point
 
 DECELERATION = 0.2  # m/s2
 SHARE = 0.2  # of the steady compression: the drawbar stays in compression, with room to spare
@@ -49,15 +54,11 @@ class MeasuredMode:
 def measured_mode(unit: HitchUnit, parameters: Parameters, V: float) -> MeasuredMode:
     """Growth rate, frequency and shape of the shunting mode at V (m/s), by a run of a few seconds.
 
-    Theory is asked only how long to look. HitchError where the motion does not oscillate.
+    Theory is asked only how long to look. HitchError where the motion does not oscillate, or no exponential fits it.
     """
-    expected = complex(shunting_mode(parameters, V).eigenvalue)
-    if expected.imag <= 0.0:
-        raise HitchError(f"at {V:g} m/s with C = {parameters.C:g} N.s/m the shunting mode does not oscillate")
-    run = brake(unit, _vibration(parameters, V, expected), _settings(expected))
+    run, seen = _observed(unit, parameters, V)
     time = values(run, "time")
-    seen = time >= WHEELS_SETTLED
-    found = measure(time[seen], values(run, "compression")[seen])
+    found = fitting(measure(time[seen], values(run, "compression")[seen]))
     if isinstance(found, NoOscillation):
         raise HitchError(f"at {V:g} m/s with C = {parameters.C:g} N.s/m nothing could be measured: {found.reason}")
     car, trailer = (found.amplitude_of(time[seen], values(run, name)[seen]) for name in ("a_car", "a_trailer"))
@@ -71,13 +72,34 @@ def measured_mode(unit: HitchUnit, parameters: Parameters, V: float) -> Measured
     )
 
 
+def measured_decay(unit: HitchUnit, parameters: Parameters, V: float) -> complex:
+    """The eigenvalue (1/s) at V (m/s) by the logarithmic decrement: also of a damper of two rates (see envelope.py).
+
+    HitchError where the motion does not oscillate.
+    """
+    run, seen = _observed(unit, parameters, V)
+    growth_rate, frequency = measured_decrement(values(run, "time")[seen], values(run, "compression")[seen])
+    return complex(growth_rate, 2.0 * math.pi * frequency)
+
+
+def _observed(unit: HitchUnit, parameters: Parameters, V: float) -> tuple[xr.Dataset, NDArray[np.bool_]]:
+    """The run, and the samples after the wheels have settled."""
+    expected = complex(shunting_mode(working_point(parameters.known_to_theory).linear, V).eigenvalue)
+    if expected.imag <= 0.0:
+        raise HitchError(f"at {V:g} m/s with C = {parameters.C:g} N.s/m the shunting mode does not oscillate")
+    run = brake(unit, _vibration(parameters, V, expected), _settings(expected))
+    return run, values(run, "time") >= WHEELS_SETTLED
+
+
 def _vibration(parameters: Parameters, V: float, expected: complex) -> Scenario:
     """The run: the drawbar starts a little off its steady compression, and ends so where the vibration grows."""
-    torque = DECELERATION / abs(steady(parameters, 1.0).A)
+    car, trailer = inertias(parameters)
+    torque = DECELERATION / abs(steady(parameters.changed({"F_0": 0.0}), 1.0).A)
+    torque += parameters.R_c * parameters.F_0 * (1.0 + car / trailer)  # which the push needs to exceed the threshold
     braking = steady(parameters, torque)
     duration = _duration(expected)
     share = SHARE * min(1.0, math.exp(-expected.real * duration))
-    start = parameters.eps + (braking.D - parameters.eps) * (1.0 + share)
+    start = parameters.gives_from + (braking.D - parameters.gives_from) * (1.0 + share)
     return Scenario(
         name="free vibration",
         parameters=parameters.changed({"V_0": V - braking.A * 0.5 * duration, "compression_start": start}),

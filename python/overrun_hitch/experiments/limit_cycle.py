@@ -15,10 +15,10 @@ from overrun_hitch.fmu.unit import HitchUnit
 from overrun_hitch.measure.oscillation import NoOscillation, measure
 from overrun_hitch.parameters import Parameters
 from overrun_hitch.results import VARIABLES
+from overrun_hitch.theory.working_point import g_n
 
 Floats = NDArray[np.float64]
 
-g_n = 9.80665  # m/s2, standard acceleration of free fall
 STEP = 0.01  # s
 RELATIVE_TOLERANCE = 1e-8
 SPEED_TIME = 20.0  # s: the driver corrects a speed error so slowly that the oscillation does not feel it

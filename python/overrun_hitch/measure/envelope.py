@@ -23,6 +23,22 @@ def measured_envelope(time: Floats, trace: Floats) -> tuple[Floats, Floats]:
     return instants[1:-1], at_extremum * np.sqrt(1.0 + tangent**2)
 
 
+def measured_decrement(time: Floats, trace: Floats) -> tuple[float, float]:
+    """Growth rate (1/s) and frequency (Hz) from swings, peak to valley, one period apart: the logarithmic decrement.
+
+    trace (n,) in any unit, sampled evenly at `time` (n,) in s. Needs no harmonic: right for all motions whose cycles
+    are alike but for their size, as those of a damper of two rates, whose mean shifts with the amplitude. NaN where
+    there is not one period.
+    """
+    instants, extrema = _extrema(time, trace)
+    swings = np.abs(np.diff(extrema))
+    if len(swings) < 3:
+        return float("nan"), float("nan")
+    middles = 0.5 * (instants[1:] + instants[:-1])
+    periods = middles[2:] - middles[:-2]
+    return float(np.mean(np.log(swings[2:] / swings[:-2]) / periods)), float(1.0 / np.mean(periods))
+
+
 def _extrema(time: Floats, trace: Floats) -> tuple[Floats, Floats]:
     slope = np.diff(trace)
     at = np.flatnonzero(slope[:-1] * slope[1:] < 0.0) + 1

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from overrun_hitch.measure.oscillation import NoOscillation, measure
+from overrun_hitch.measure.oscillation import FITS, Oscillation, measure
 
 Floats = NDArray[np.float64]
 
@@ -41,16 +41,21 @@ class Traces:
 
     @cached_property
     def modes(self) -> Floats:
-        """Growth rate (1/s) and frequency (Hz) of the compression in each run (runs, 2); NaN where there are none."""
+        """Growth rate (1/s), frequency (Hz) and residual (1) of the compression (runs, 3); NaN where there are none.
+
+        Where the fit leaves more than FITS there is a residual alone.
+        """
         rolls = self.values["v_car"] > ROLLING
         seen = (self.time >= TAKEN_UP) & (self.values["compression"] > self.eps[:, None])
         first = np.where(seen.any(axis=1), seen.argmax(axis=1), 0)
         last = np.where(rolls.all(axis=1), len(self.time), rolls.argmin(axis=1))
-        found = np.full((len(first), 2), np.nan)
+        found = np.full((len(first), 3), np.nan)
         for run, (start, end) in enumerate(zip(first, last, strict=True)):
             fit = measure(self.time[start:end], self.values["compression"][run, start:end])
-            if not isinstance(fit, NoOscillation):
-                found[run] = fit.growth_rate, fit.frequency
+            if isinstance(fit, Oscillation):
+                found[run, 2] = fit.residual
+                if fit.residual <= FITS:
+                    found[run, :2] = fit.growth_rate, fit.frequency
         return found
 
 
@@ -76,6 +81,10 @@ def _frequency(runs: Traces) -> Floats:
 def _damping_ratio(runs: Traces) -> Floats:
     growth, omega = runs.modes[:, 0], 2.0 * np.pi * runs.modes[:, 1]
     return np.asarray(-growth / np.hypot(growth, omega))
+
+
+def _fit_residual(runs: Traces) -> Floats:
+    return runs.modes[:, 2]
 
 
 def _time_out_of_compression(runs: Traces) -> Floats:
@@ -136,6 +145,9 @@ METRICS: Mapping[str, Metric] = {
     "growth_rate": Metric("1/s", "growth rate of the drawbar's oscillation, positive: self-excited", _growth_rate),
     "frequency": Metric("Hz", "frequency of the drawbar's oscillation", _frequency),
     "damping_ratio": Metric("1", "damping ratio of the drawbar's oscillation", _damping_ratio),
+    "fit_residual": Metric(
+        "1", f"what an exponential leaves of the oscillation; over {FITS:g} the three above are none", _fit_residual
+    ),
     "time_out_of_compression": Metric(
         "s", "time for which the drawbar is not compressed after it once was", _time_out_of_compression
     ),

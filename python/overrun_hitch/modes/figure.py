@@ -22,7 +22,7 @@ def draw(result: Stability) -> Figure:
     C = [row.C for row in result.rows if row.V == result.rows[0].V]
     shown = _some(result.boundaries, len(CURVES))
     marks = _some(C, MARKS)
-    curves = [computed(_label(boundary), result.parameters, boundary.V, marks) for boundary in shown]
+    curves = [computed(_label(boundary), result.point.linear, boundary.V, marks) for boundary in shown]
     title = result.name[:1].upper() + result.name[1:]
     if len(shown) < len(result.boundaries):
         title += f" ({len(shown)} of {len(result.boundaries)} speeds)"

@@ -12,8 +12,9 @@ import numpy as np
 
 from overrun_hitch.parameters import HitchError, Parameters, Quantities, quantity
 from overrun_hitch.theory.boundary import critical_damping
-from overrun_hitch.theory.linear import compression_matrix, shunting_mode
-from overrun_hitch.theory.steady import steady
+from overrun_hitch.theory.linear import check_known, compression_matrix, shunting_mode
+from overrun_hitch.theory.steady import braking_at, steady
+from overrun_hitch.theory.working_point import WorkingPoint, working_point
 
 MOST = 10_000  # combinations of C and V: about a second
 HARD = 5.0  # m/s2, the deceleration for which the paper's figure 3 gives deflections
@@ -43,6 +44,7 @@ class Row:
 UNITS: Mapping[str, str] = {
     "V": "m/s", "C": "N.s/m", "growth_rate": "1/s", "frequency": "Hz", "damping_ratio": "1", "amplitude_ratio": "1",
     "phase": "deg", "self_excited": "1", "C_crit": "N.s/m", "A_over_A_c": "1", "deceleration": "m/s2", "D": "m",
+    "from": "m", "until": "m",
 }  # fmt: skip
 
 
@@ -62,37 +64,48 @@ class Stability:
     parameters: Parameters
     rows: tuple[Row, ...]  # speed by speed
     boundaries: tuple[Boundary, ...]  # one a speed
+    point: WorkingPoint  # about which small motions are looked at
+    deceleration: float  # m/s2, of what follows
     A_over_A_c: float  # 1, steady deceleration over that of the car alone
-    D: float  # m, drawbar compression at the steady deceleration HARD, clearance included
+    D: float  # m, drawbar compression, clearance included
+
+    @property
+    def approximate(self) -> tuple[str, ...]:
+        """The parameters for which theory has an equivalent."""
+        return self.parameters.off_default("approximate")
 
 
-def stability(name: str, parameters: Parameters, C: Sequence[float], V: Sequence[float]) -> Stability:
+def stability(
+    name: str, parameters: Parameters, C: Sequence[float], V: Sequence[float], deceleration: float = 0.0
+) -> Stability:
     """The shunting mode at every C (N.s/m) for every V (m/s); C and V_0 of `parameters` do not count.
 
-    HitchError for values out of range, more than MOST combinations, no shunting mode (k = r = 0), and numbers so large
-    or small that floating point does not suffice.
+    About steady braking by `deceleration` (m/s2); 0: as gentle as a drawbar in compression allows. HitchError for what
+    theory does not know, values out of range, more than MOST combinations, no shunting mode (k = r = 0), and numbers so
+    large or small that floating point does not suffice.
     """
+    check_known(parameters)
     if len(C) * len(V) > MOST:
         raise HitchError(f"C and V make {len(C) * len(V)} combinations; allowed: at most {MOST}")
     speeds = [Speed(V=value).V for value in V]
-    dampers = [parameters.changed({"C": value}) for value in C]
     try:
+        point = working_point(parameters, deceleration)
+        dampers = [point.linear.changed({"C": value}) for value in C]
         with np.errstate(over="raise", divide="raise", invalid="raise"):
             rows = tuple(_row(damped, speed) for speed in speeds for damped in dampers)
-            boundaries = tuple(Boundary(speed, critical_damping(parameters, speed)) for speed in speeds)
-        ratio, D = _steady_state(parameters)
+            boundaries = tuple(Boundary(speed, critical_damping(point.linear, speed)) for speed in speeds)
+        ratio, D = _steady_state(parameters, deceleration or HARD)
     except (np.linalg.LinAlgError, ArithmeticError):
         raise HitchError("the parameters differ by so many orders of magnitude that no modes can be computed") from None
-    return Stability(name=name, parameters=parameters, rows=rows, boundaries=boundaries, A_over_A_c=ratio, D=D)
+    return Stability(name, parameters, rows, boundaries, point, deceleration or HARD, ratio, D)
 
 
-def _steady_state(parameters: Parameters) -> tuple[float, float]:
-    """A/A_c (1), and D (m) at HARD."""
-    unit_torque = steady(parameters, 1.0)
-    D = steady(parameters, -HARD / unit_torque.A).D
-    if not (math.isfinite(unit_torque.ratio) and math.isfinite(D)):
+def _steady_state(parameters: Parameters, deceleration: float) -> tuple[float, float]:
+    """A/A_c (1), and D (m) at the deceleration (m/s2)."""
+    found = steady(parameters, braking_at(parameters, deceleration)[2])
+    if not (math.isfinite(found.ratio) and math.isfinite(found.D)):
         raise ArithmeticError
-    return unit_torque.ratio, D
+    return found.ratio, found.D
 
 
 def _row(damped: Parameters, V: float) -> Row:
@@ -114,13 +127,23 @@ def _row(damped: Parameters, V: float) -> Row:
 
 def document(result: Stability, files: Sequence[Path] = ()) -> dict[str, Any]:
     """Everything with units, for JSON; `files` are those written beside."""
-    taken = [name for name in Parameters.having("theory", "exact") if name != "C"]  # which stands in the rows
+    known = Parameters.having("theory", "exact", "small", "approximate")
+    taken = [name for name in known if name != "C"]  # which stands in the rows
+    low, high = result.point.reach
     used = {name: getattr(result.parameters, name) for name in taken}
     return {
         "name": result.name,
         "parameters": {name: {"value": value, "unit": Parameters.unit(name)} for name, value in used.items()},
         "units": dict(UNITS),
-        "steady": {"A_over_A_c": result.A_over_A_c, "deceleration": HARD, "D": result.D},
+        "working_point": {
+            "deceleration": result.point.deceleration,
+            "D": result.point.compression,
+            "stiffness": result.point.stiffness,
+            "from": low,
+            "until": high if math.isfinite(high) else None,
+        },
+        "approximate": list(result.approximate),
+        "steady": {"A_over_A_c": result.A_over_A_c, "deceleration": result.deceleration, "D": result.D},
         "critical_damping": [asdict(boundary) for boundary in result.boundaries],
         "shunting_mode": [asdict(row) for row in result.rows],
         "files": [str(path) for path in files],

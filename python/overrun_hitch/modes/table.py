@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from overrun_hitch.modes.study import HARD, Row, Stability
+from overrun_hitch.modes.study import Row, Stability
 from overrun_hitch.show.table import Column, Numbers, console, show_rows, show_written
+from overrun_hitch.theory.linear import rebound_error
 
 COLUMNS = (
     Numbers("V", "m/s"), Numbers("C", "N.s/m"), Numbers("growth", "1/s"), Numbers("frequency", "Hz"),
@@ -18,13 +20,34 @@ def show(result: Stability, paths: Sequence[Path]) -> None:
     """Print modes, steady state, boundary and the files written."""
     out = console()
     out.print(f"{result.name}: shunting mode by linear theory")
+    for remark in _remarks(result):
+        out.print(remark, soft_wrap=True)
     show_rows(out, COLUMNS, (_cells(row) for row in result.rows), map(_sentence, result.rows))
     for boundary in result.boundaries:
         limit = f"C_crit = {_number(boundary.C_crit, 4)} N.s/m" if boundary.C_crit > 0.0 else "stable without a damper"
         out.print(f"at {boundary.V:g} m/s: {limit}")
     out.print(f"steady deceleration A/A_c = {result.A_over_A_c:.5f}")
-    out.print(f"drawbar deflection D = {_number(result.D, 5)} m at {HARD:g} m/s2")
+    out.print(f"drawbar deflection D = {_number(result.D, 5)} m at {result.deceleration:g} m/s2")
     show_written(out, paths)
+
+
+def _remarks(result: Stability) -> Iterable[str]:
+    """What a reader must know who has set more than the paper's parameters: the working point and its reach."""
+    point, p = result.point, result.parameters
+    low, high = point.reach
+    about = f"steady braking by {point.deceleration:g} m/s2" if point.deceleration > 0.0 else "gentle braking"
+    if math.isfinite(high) or low > p.eps or point.deceleration > 0.0:
+        until = f"to {high:.4g} m" if math.isfinite(high) else "on"
+        slope = f"{point.stiffness} = {point.linear.k:g} N/m"
+        yield f"small motions about {about}: {slope}, which holds from {low:.4g} m of compression {until}"
+    if "mu" in p.off_default("small"):
+        yield f"mu = {p.mu:g}: tyre stiffness C_kc = {point.linear.C_kc:.6g} N, C_kt = {point.linear.C_kt:.6g} N there"
+    if "rebound" in result.approximate:
+        error = max(rebound_error(point.linear.changed({"C": row.C}), row.V) for row in result.rows)
+        yield (
+            f"approximate for rebound = {p.rebound:g}: a damper of (1 + rebound)/2 C, equal in energy a cycle; "
+            f"where the mode oscillates, the damping ratio is off by {error:.1g} of itself or less"
+        )
 
 
 def _sentence(row: Row) -> str:

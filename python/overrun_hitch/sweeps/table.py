@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rich.console import Console
 
 from overrun_hitch.measure.metrics import METRICS
+from overrun_hitch.measure.oscillation import FITS
 from overrun_hitch.show.table import Column, Numbers, Row, console, show_written, table
 from overrun_hitch.sweeps.store import FAILED
 
@@ -31,6 +32,7 @@ def show(name: str, sweep: xr.Dataset, paths: Sequence[Path]) -> None:
     out = console()
     out.print(f"{name}: {sweep.sizes['run']} runs")
     out.print(table(COLUMNS, (_cells(metric, sweep[metric].values) for metric in METRICS if metric in sweep)))
+    _show_misfits(out, sweep)
     _show_failures(out, sweep)
     show_written(out, paths)
 
@@ -39,6 +41,18 @@ def _cells(metric: str, values: Floats) -> Row:
     some = values[np.isfinite(values)]
     spread = [f"{value:.5g}" for value in (some.min(), np.median(some), some.max())] if some.size else ["-"] * 3
     return (metric, METRICS[metric].unit, *spread, str(values.size - some.size or ""))
+
+
+def _show_misfits(out: Console, sweep: xr.Dataset) -> None:
+    """Why runs have no growth rate: how many do not oscillate, and in how many no exponential fits."""
+    if "fit_residual" not in sweep:
+        return
+    residual = sweep["fit_residual"].values[sweep["status"].values != FAILED]
+    misfits, still = int((residual > FITS).sum()), int(np.isnan(residual).sum())
+    if misfits:
+        out.print(f"in {misfits} runs no exponential fits the oscillation (fit_residual over {FITS:g})")
+    if still:
+        out.print(f"in {still} runs the drawbar does not oscillate long enough to measure")
 
 
 def _show_failures(out: Console, sweep: xr.Dataset) -> None:

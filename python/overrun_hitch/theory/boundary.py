@@ -45,7 +45,7 @@ def light_damping_estimate(parameters: Parameters, V: float) -> float:
 
     So the boundary rises with V in proportion. The error is at most about (w T)^2 of the first term, w the frequency
     in rad/s and T the greater lag: for the paper's nine cases at 10, 20 and 40 m/s the estimate is too high by 0.007 %
-    (vi, 10 m/s) to 0.37 % (ix, 40 m/s).
+    (vi, 10 m/s) to 0.37 % (ix, 40 m/s). With another damper in rebound, (1 + rebound)/2 C takes the place of C.
     """
     p = parameters
     J_c, J_t = p.I_c / p.R_c**2, p.I_t / p.R_t**2
@@ -53,4 +53,4 @@ def light_damping_estimate(parameters: Parameters, V: float) -> float:
     T_c, T_t = J_c * V / p.C_kc, J_t * V / p.C_kt
     fed = p.r / p.R_t * T_t * p.M_t / m_t**2
     drained = p.k * (J_t * T_t / m_t**2 + J_c * T_c / m_c**2)
-    return (fed - drained) / (1.0 / m_c + 1.0 / m_t)
+    return (fed - drained) / (1.0 / m_c + 1.0 / m_t) / (0.5 * (1.0 + p.rebound))

@@ -61,6 +61,8 @@ def integrated_compression(scenario: Scenario, time: Floats) -> Floats:
     Solved by SciPy's Radau (the wheels' modes stiffen as 1/V) from what the FMU starts with: wheels without slip.
     """
     p = scenario.parameters
+    if p.sigma > 0.0:
+        raise HitchError(f"the paper's equations do not know sigma = {p.sigma:g} m")
     A = steady(p, scenario.brake_torque).A
     torque = np.array([0.0, 0.0, 0.0, -scenario.brake_torque / p.I_c, 0.0])
     start = np.array([p.compression_start - p.eps, p.V_0, p.V_0, p.V_0 / p.R_c, p.V_0 / p.R_t])

@@ -3,6 +3,11 @@
 The independent check of everything simulated: nothing here comes from the FMU. Slip denominators are held at the
 speed V, so the matrices are those of the nonlinear model at zero slip and differ from it by terms of the order of the
 slip (about 0.01) when braking.
+
+Beyond the paper's parameters (docs/theory.md): tyres whose force lags by `sigma` add a state each, exactly. A damper
+that is another in `rebound` is taken as one of C (1 + rebound)/2, which takes as much energy from a harmonic motion:
+its describing function, whatever the amplitude (A. Gelb and W. E. Vander Velde, Multiple-Input Describing Functions and
+Nonlinear System Design, McGraw-Hill 1968, chapter 2). What theory does not know is refused.
 """
 
 from __future__ import annotations
@@ -22,21 +27,34 @@ def equations_of_motion(parameters: Parameters, V: float, s: float = 0.0) -> tup
     """Mass, damping and stiffness matrix (4, 4) of M q'' + B q' + K q = 0, q = (x_c, x_t, theta_c, theta_t).
 
     The paper's homogeneous equations at the end of section 5. V: speed in m/s; s: weak spring from the car to ground
-    in N/m, which keeps the rigid-body mode off zero.
+    in N/m, which keeps the rigid-body mode off zero. HitchError for what they do not know, a lag `sigma` among it.
     """
-    if not V > 0.0:
-        raise HitchError(f"V_0 = {V:g} m/s is not allowed: linear theory needs a speed greater than 0 m/s")
+    if parameters.sigma > 0.0:
+        raise HitchError(f"the paper's equations do not know sigma = {parameters.sigma:g} m")
+    mass, damping, stiffness = _without_tyres(parameters, V, s)
     p = parameters
     g_c, g_t = p.C_kc / V, p.C_kt / V
-    mass = np.diag([p.M_c, p.M_t, p.I_c, p.I_t])
-    damping = np.array(
+    tyres = np.array(
         [
-            [p.C + g_c, -p.C, -g_c * p.R_c, 0.0],
-            [-p.C, p.C + g_t, 0.0, -g_t * p.R_t],
+            [g_c, 0.0, -g_c * p.R_c, 0.0],
+            [0.0, g_t, 0.0, -g_t * p.R_t],
             [-g_c * p.R_c, 0.0, g_c * p.R_c**2, 0.0],
             [0.0, -g_t * p.R_t, 0.0, g_t * p.R_t**2],
         ]
     )
+    return mass, damping + tyres, stiffness
+
+
+def _without_tyres(parameters: Parameters, V: float, s: float = 0.0) -> tuple[Floats, Floats, Floats]:
+    """The three matrices of `equations_of_motion` but for what the tyres add to the damping."""
+    check_known(parameters)
+    if not V > 0.0:
+        raise HitchError(f"V_0 = {V:g} m/s is not allowed: linear theory needs a speed greater than 0 m/s")
+    p = parameters
+    C = 0.5 * p.C * (1.0 + p.rebound)
+    mass = np.diag([p.M_c, p.M_t, p.I_c, p.I_t])
+    damping = np.zeros((4, 4))
+    damping[:2, :2] = [[C, -C], [-C, C]]
     stiffness = np.array(
         [
             [p.k + s, -p.k, 0.0, 0.0],
@@ -46,6 +64,14 @@ def equations_of_motion(parameters: Parameters, V: float, s: float = 0.0) -> tup
         ]
     )
     return mass, damping, stiffness
+
+
+def check_known(parameters: Parameters) -> None:
+    """HitchError, naming it, if there is a parameter that linear theory does not know and that is not neutral."""
+    for name in parameters.off_default("neutral"):
+        value = f"{getattr(parameters, name):g} {parameters.unit(name)}".removesuffix(" 1")
+        default = f"{Parameters.model_fields[name].default:g}"
+        raise HitchError(f"linear theory does not know {name} = {value}; allowed: {default}")
 
 
 def dynamic_matrix(parameters: Parameters, V: float, s: float = 0.0) -> Floats:
@@ -71,13 +97,32 @@ def compression_matrix(parameters: Parameters, V: float) -> Floats:
     """The dynamic matrix (5, 5) for (x_t - x_c, v_c, v_t, omega_c, omega_t); V in m/s.
 
     Place drops out: of the rigid body one simple zero eigenvalue is left, and the others are those of the paper.
+    With a lag `sigma` the slips of car and trailer are two more states (7, 7).
     """
+    if parameters.sigma > 0.0:
+        return _lagging_matrix(parameters, V)
     full = dynamic_matrix(parameters, V)
     matrix = np.zeros((5, 5))
     matrix[0, 1:3] = -1.0, 1.0
     # Without the weak spring forces depend on x_t - x_c alone, so the column of x_t is that of the difference.
     matrix[1:, 0] = full[4:, 1]
     matrix[1:, 1:] = full[4:, 4:]
+    return matrix
+
+
+def _lagging_matrix(parameters: Parameters, V: float) -> Floats:
+    """`compression_matrix` (7, 7) with sigma > 0: sigma slip' = slip speed - V slip, tyre force C_k slip."""
+    p = parameters
+    mass, damping, stiffness = _without_tyres(p, V)
+    slip_speeds = np.array([[1.0, 0.0, -p.R_c, 0.0], [0.0, 1.0, 0.0, -p.R_t]])
+    inverse = np.linalg.inv(mass)
+    matrix = np.zeros((7, 7))
+    matrix[0, 1:3] = -1.0, 1.0
+    matrix[1:5, 0] = -inverse @ stiffness[:, 1]
+    matrix[1:5, 1:5] = -inverse @ damping
+    matrix[1:5, 5:] = -inverse @ slip_speeds.T @ np.diag([p.C_kc, p.C_kt])
+    matrix[5:, 1:5] = slip_speeds / p.sigma
+    matrix[5:, 5:] = -V / p.sigma * np.eye(2)
     return matrix
 
 
@@ -122,11 +167,13 @@ class ShuntingMode:
 def shunting_mode(parameters: Parameters, V: ArrayLike) -> ShuntingMode:
     """The shunting mode at the speeds V (m/s, any shape), from the linear drawbar: k, C, r without clearance.
 
+    On another piece of the spring, or under friction: working_point.py.
+
     It is picked as the mode in which the drawbar compression participates most (participation factors: Perez-Arriaga,
     Verghese and Schweppe 1982, doi 10.1109/TPAS.1982.317524). Unlike "the slowest complex pair" this stays right where
     strong damping splits the pair into two real roots and the faster one pairs up with a wheel's. A motion that grows
     goes before: so the growth rate is positive exactly where any motion grows.
-    HitchError where nothing returns the trailer to its place (k = r = 0).
+    HitchError where nothing returns the trailer to its place (k = r = 0), and for what theory does not know.
     """
     speed = np.asarray(V, dtype=np.float64)
     values, right, chosen = _modes(parameters, speed.ravel())
@@ -136,6 +183,20 @@ def shunting_mode(parameters: Parameters, V: ArrayLike) -> ShuntingMode:
     below = value.imag < 0.0  # of a conjugate pair either may have been chosen
     value, shape = np.where(below, value.conj(), value), np.where(below, shape.conj(), shape)
     return ShuntingMode(eigenvalue=value.reshape(speed.shape), shape=shape.reshape(speed.shape))
+
+
+def rebound_error(parameters: Parameters, V: float) -> float:
+    """What taking one damper for two may cost of the damping ratio at V (m/s), relative (1).
+
+    A mass on a spring spends half a cycle on either damper, each with its own decrement. With z the damping ratio that
+    the equivalent damper would give it, the whole is off by 1.5 ((rebound - 1)/(rebound + 1) z)^2 to first order; 2
+    covers what lies beyond, up to z = 0.2.
+    """
+    p = parameters
+    omega = float(np.abs(shunting_mode(p, V).eigenvalue))
+    inverse_mass = 1.0 / (p.M_c + p.I_c / p.R_c**2) + 1.0 / (p.M_t + p.I_t / p.R_t**2)
+    z = 0.5 * p.C * (1.0 + p.rebound) * inverse_mass / (2.0 * omega)
+    return 2.0 * ((p.rebound - 1.0) / (p.rebound + 1.0) * z) ** 2
 
 
 def wheel_decay_rate(parameters: Parameters, V: float) -> float:
@@ -149,7 +210,7 @@ def wheel_decay_rate(parameters: Parameters, V: float) -> float:
 
 
 def _modes(parameters: Parameters, speeds: Floats) -> tuple[Complexes, Complexes, NDArray[np.intp]]:
-    """Eigenvalues (n, 5), eigenvectors in columns (n, 5, 5) and the place (n,) of the shunting mode."""
+    """Eigenvalues (n, 5), eigenvectors in columns (n, 5, 5) and the place (n,) of the shunting mode; 7 with sigma."""
     if parameters.k + parameters.r <= 0.0:
         raise HitchError("k = 0 N/m and r = 0 N.m/m leave no shunting mode: one of them must be greater than 0")
     values, right = np.linalg.eig(np.array([compression_matrix(parameters, float(value)) for value in speeds]))

@@ -95,7 +95,7 @@ def test_what_is_not_late_errs_by_a_twentieth_of_that(studies: dict[float, Coupl
 def test_a_coarse_step_makes_a_stable_combination_shunt(pair: Pair, whole: HitchUnit) -> None:
     """Plain Jacobi at twice the step of the closed form; the force to hold does not at the same step."""
     p = CASES["ii"].changed({"C": 200.0})
-    step = longest_stable_step(BY_NAME["jacobi"], p, V)
+    step = longest_stable_step(BY_NAME["jacobi"], p, float(shunting_mode(p, V).growth_rate))
     assert 0.03 < step < 0.06
     schemes = [BY_NAME["jacobi"], BY_NAME["jacobi-hold"]]
     jacobi, hold = study_coupling(pair, whole, p, V, [0.05], schemes=schemes).points
@@ -103,11 +103,13 @@ def test_a_coarse_step_makes_a_stable_combination_shunt(pair: Pair, whole: Hitch
     assert jacobi.growth_rate > 0.0 > hold.growth_rate
 
 
-def test_a_scheme_that_fails_does_not_stop_the_others(pair: Pair, whole: HitchUnit) -> None:
-    """So stiff a drawbar that repeating steps of 0.1 s comes to no end."""
-    stiff = CASES["ii"].changed({"C": 0.0, "k": 2e6, "r": 5.95e6})
+def test_a_scheme_that_fails_does_not_stop_the_others(
+    pair: Pair, whole: HitchUnit, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Repeating steps comes to no end where it is allowed two iterations."""
+    monkeypatch.setattr("overrun_hitch.coupling.pair.ITERATIONS", 2)
     schemes = [BY_NAME[name] for name in ("iterated", "trailer-mean")]
-    failed, other = study_coupling(pair, whole, stiff, V, [0.1], schemes=schemes).points
+    failed, other = study_coupling(pair, whole, CASES["ii"], V, [0.1], schemes=schemes).points
     assert np.isnan(failed.created) and np.isfinite(other.created)
 
 

@@ -20,16 +20,54 @@ from overrun_hitch.theory.linear import shunting_mode
 @settings(max_examples=10, deadline=None)
 def test_it_is_enough_at_every_speed_and_less_is_not(ratio: float, case: str) -> None:
     wanted = Wanted(ratio=ratio)
-    C, worst = smallest(CASES[case], "C", 0.0, 5000.0, wanted)
+    found = smallest(CASES[case], "C", 0.0, 5000.0, wanted)
+    C = found.value
     speeds = np.linspace(10.0, 40.0, 301)
     enough, less = (shunting_mode(CASES[case].changed({"C": each}), speeds).damping_ratio for each in (C, 0.999 * C))
     assert enough.min() == pytest.approx(ratio, abs=1e-6)
     assert less.min() < ratio
-    assert 10.0 <= worst <= 40.0
+    assert 10.0 <= found.worst <= 40.0 and not found.is_edge
 
 
 def test_the_lowest_value_where_that_is_enough() -> None:
-    assert smallest(DATUM, "C", 2000.0, 3000.0, Wanted(ratio=0.1))[0] == 2000.0
+    found = smallest(DATUM, "C", 2000.0, 3000.0, Wanted(ratio=0.1))
+    assert found.value == 2000.0 and found.is_edge and found.enough_until == np.inf
+
+
+def test_more_is_not_better() -> None:
+    """A light trailer shunts less, a heavy one more: too heavy, and it is not enough any more."""
+    wanted = Wanted(ratio=0.1)
+    found = smallest(DATUM, "M_t", 5.0, 5000.0, wanted)
+    assert found.is_edge and 5.0 < found.enough_until < 500.0
+    until, further = (DATUM.changed({"M_t": factor * found.enough_until}) for factor in (0.999, 1.001))
+    assert least_damping(until, wanted)[0] > 0.1 > least_damping(further, wanted)[0]
+
+
+@pytest.mark.parametrize("name", ["V_0", "mu", "k_2", "F_pull_max"])
+def test_what_has_no_influence_is_told(name: str) -> None:
+    low, high = default_range(DATUM, name)
+    with pytest.raises(HitchError, match=rf"^{name} has no influence: .* 0\.05323 "):
+        smallest(DATUM.changed({"C": 500.0}), name, low, high, Wanted(ratio=0.1))
+
+
+@pytest.mark.parametrize(("rebound", "ratio"), [(3.0, 0.1), (3.0, 0.2), (0.0, 0.05), (1.5, 0.2)])
+def test_a_damper_of_two_rates(car_trailer_fmu: Path, rebound: float, ratio: float) -> None:
+    """Half the damper with three times the rebound, for light damping; the FMU's decrement says so."""
+    wanted, single = Wanted(ratio=ratio), smallest(DATUM, "C", 0.0, 5000.0, Wanted(ratio=ratio)).value
+    with opened_unit(car_trailer_fmu) as unit:
+        found = optimise(unit, DATUM.changed({"rebound": rebound}), "C", 0.0, 5000.0, wanted)
+    assert found.found.value == pytest.approx(single * 2.0 / (1.0 + rebound), rel=1e-6)
+    assert [one.verdict for one in found.damping] == ["agrees"] * 2
+    assert max(one.allowed / one.expected for one in found.damping) < 0.03
+
+
+def test_a_threshold_and_more_stiffnesses(car_trailer_fmu: Path) -> None:
+    """Beyond its threshold, before its second stiffness: the damper is that of the paper's drawbar."""
+    device = DATUM.changed({"F_0": 150.0, "x_2": 0.02, "k_2": 16e3, "travel": 0.08, "eps": 0.01, "sigma": 0.3})
+    with opened_unit(car_trailer_fmu) as unit:
+        found = optimise(unit, device, "C", 0.0, 5000.0, Wanted(ratio=0.1))
+    assert [one.verdict for one in found.damping] == ["agrees"] * 2
+    assert found.found.value == pytest.approx(833.3, rel=0.02)
 
 
 @pytest.mark.parametrize("name", ["C", "M_t"])

@@ -30,17 +30,12 @@ def runs(fmu: Path, store: Path) -> xr.Dataset:
 
 
 def test_they_are_those_of_linear_theory(car_trailer_fmu: Path, tmp_path: Path) -> None:
-    """The same sample, in theory at the speed half way through the run of 6 s.
-
-    Linear theory knows one damper coefficient. A harmonic motion feels the mean of those of both directions.
-    """
+    """The same sample, in theory at the speed half way through the run of 6 s."""
     sweep = runs(car_trailer_fmu, tmp_path / "small.zarr")
     found = analysed(sweep, DATUM, SMALL)
     columns = {name: sweep[name].values for name in varied(DATUM)}
     rows = [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
-    combinations = [
-        DATUM.changed({**row, "C": 0.5 * row["C"] * (1.0 + row["rebound"]), "rebound": 1.0}) for row in rows
-    ]
+    combinations = [DATUM.changed(row) for row in rows]
     speeds = [each.V_0 + 3.0 * steady(each, 1000.0).A for each in combinations]
     ratios = [float(shunting_mode(*each).damping_ratio) for each in zip(combinations, speeds, strict=True)]
     theory = analysed(sweep.assign(damping_ratio=("run", np.array(ratios))), DATUM, SMALL)

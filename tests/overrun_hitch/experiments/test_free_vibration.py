@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from overrun_hitch.experiments.free_vibration import measured_mode
+from overrun_hitch.experiments.free_vibration import measured_decay, measured_mode
 from overrun_hitch.fmu.opening import opened_unit
 from overrun_hitch.parameters import CASES, DATUM, HitchError
-from overrun_hitch.theory.linear import shunting_mode
+from overrun_hitch.theory.linear import rebound_error, shunting_mode
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -42,6 +42,27 @@ def test_clearance_only_shifts_it(car_trailer_fmu: Path) -> None:
         without = measured_mode(unit, parameters, 20.0)
         wide = measured_mode(unit, parameters.changed({"eps": 0.1}), 20.0)
     assert wide.eigenvalue == pytest.approx(without.eigenvalue, rel=1e-6)
+
+
+@pytest.mark.parametrize("rebound", [0.0, 0.5, 1.0, 3.0, 5.0])
+@pytest.mark.parametrize("C", [100.0, 200.0, 830.0, 1600.0])
+def test_a_damper_of_two_rates_is_nearly_one_of_their_mean(car_trailer_fmu: Path, C: float, rebound: float) -> None:
+    """What theory neglects is what it says, and the FMU always decays a little faster."""
+    p = DATUM.changed({"C": 2.0 * C / (1.0 + rebound), "rebound": rebound})
+    with opened_unit(car_trailer_fmu) as unit:
+        found = measured_decay(unit, p, 20.0)
+    theory, error = complex(shunting_mode(p, 20.0).eigenvalue), rebound_error(p, 20.0)
+    ratios = [-value.real / abs(value) for value in (found, theory)]
+    off = ratios[0] / ratios[1] - 1.0
+    print(f"C {C:g}, rebound {rebound:g}: damping ratio {ratios[1]:.4f} off by {off:.1e}, at most {error:.1e}")
+    assert -2e-4 < off < error + 3e-4
+    assert -2e-4 < (theory.real - found.real) < error * abs(theory.real) + 2e-4
+    assert found.imag == pytest.approx(theory.imag, rel=0.002 + 2.0 * error)
+
+
+def test_no_mode_where_no_exponential_fits(car_trailer_fmu: Path) -> None:
+    with opened_unit(car_trailer_fmu) as unit, pytest.raises(HitchError, match="no exponential fits the oscillation"):
+        measured_mode(unit, DATUM.changed({"C": 400.0, "rebound": 3.0}), 20.0)
 
 
 def test_where_there_is_nothing_to_measure(car_trailer_fmu: Path) -> None:

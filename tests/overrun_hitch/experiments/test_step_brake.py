@@ -81,7 +81,11 @@ def test_no_verdict_where_the_drawbar_leaves_compression(car_trailer_fmu: Path, 
     scenario = FIGURES[figure]
     rows = compare(step_brake(scenario, fmu=car_trailer_fmu), step_brake(car_alone(scenario), fmu=car_trailer_fmu))
     assert {row.verdict for row in rows} == {"not judged"}
-    assert all(np.isfinite([row.expected, row.found]).all() for row in rows)
+    assert np.isfinite([row.expected for row in rows]).all()
+    # The fit leaves 4 % of figure 7, which is in compression but for moments, and 7 to 26 % of the others.
+    misfits = {row.quantity for row in rows if "no exponential fits" in row.not_judged}
+    assert misfits == (set() if figure == "7" else {"shunting growth", "shunting frequency"})
+    assert all(np.isnan(row.found) == (row.quantity in misfits) for row in rows)
 
 
 def test_deceleration_ratio_of_case_ii_three_ways(car_trailer_fmu: Path) -> None:

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from overrun_hitch.measure.metrics import METRICS, NEEDED, RESPONDED, Traces, measured
+from overrun_hitch.measure.oscillation import FITS
 
 Floats = NDArray[np.float64]
 
@@ -96,3 +97,12 @@ def test_what_a_run_has_not_is_nan_and_every_metric_has_a_unit() -> None:
     found = measured(tuple(METRICS), traces())
     assert all(metric.unit for metric in METRICS.values())
     assert np.isnan([found[name][0] for name in ("growth_rate", "frequency", "trailer_brake_delay")]).all()
+
+
+def test_no_growth_rate_where_no_exponential_fits() -> None:
+    """A swing that is cut off at one end, as by a stop: there is a residual, and it says how bad."""
+    free = vibration(-0.1, 9.0)
+    stopped = traces(**{**free.values, "compression": np.maximum(free.values["compression"], 0.025)})
+    assert one("fit_residual", free) < 1e-3 and np.isfinite(one("growth_rate", free))
+    assert one("fit_residual", stopped) > FITS
+    assert np.isnan([one(name, stopped) for name in ("growth_rate", "frequency", "damping_ratio")]).all()

@@ -67,6 +67,7 @@ def test_json_is_one_document_with_units(tmp_path: Path, capsys: pytest.CaptureF
     assert [row["C"] for row in found["shunting_mode"]] == [60.0, 70.0, 60.0, 70.0]
     assert [row["V"] for row in found["critical_damping"]] == [20.0, 40.0]
     every = {*found["shunting_mode"][0], *found["critical_damping"][0], *found["steady"]}
+    every |= {*found["working_point"]} - {"stiffness"}
     assert every == set(found["units"])
     assert [Path(name).suffix for name in found["files"]] == [".csv", ".png", ".svg"]
     assert all(Path(name).is_file() for name in found["files"])
@@ -262,3 +263,37 @@ def test_long_names_make_files_with_short_names() -> None:
     assert file_stem("figure 8, C=20") == "figure-8-C=20"
     assert len(file_stem(long)) == 120
     assert file_stem(long) != file_stem(long + "7")
+
+
+def test_a_stronger_rebound_decays_and_is_marked(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ("--set", "rebound=3", "--V", "40", "--C", "80")
+    found = json_of(capsys, *arguments, output=tmp_path)
+    assert found["approximate"] == ["rebound"]
+    assert [row["self_excited"] for row in found["shunting_mode"]] == [False]
+    assert found["critical_damping"][0]["C_crit"] == pytest.approx(60.35, abs=0.01)
+    assert run(*arguments, output=tmp_path) == 0
+    assert "approximate for rebound = 3: a damper of (1 + rebound)/2 C" in " ".join(capsys.readouterr().out.split())
+
+
+@pytest.mark.parametrize("name", Parameters.having("theory", "neutral"))
+def test_what_theory_does_not_know_is_refused(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("--set", f"{name}=0.5", output=tmp_path) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and err.startswith(f"hitch: linear theory does not know {name} = 0.5")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_working_point_and_its_reach_are_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    device = ("--set", "x_2=0.02", "--set", "k_2=16e3", "--set", "travel=0.08", "--C", "100")
+    gentle = json_of(capsys, *device, output=tmp_path)["working_point"]
+    assert gentle == {"deceleration": 0.0, "D": 0.0, "stiffness": "k", "from": 0.0, "until": 0.02}
+    found = json_of(capsys, *device, "--deceleration", "5", output=tmp_path)
+    assert (found["working_point"]["stiffness"], found["working_point"]["until"]) == ("k_2", 0.08)
+    assert found["working_point"]["D"] == found["steady"]["D"] == pytest.approx(0.04494, abs=1e-5)
+    growth = float(shunting_mode(DATUM.changed({"C": 100.0, "k": 16e3}), 20.0).growth_rate)
+    assert found["shunting_mode"][0]["growth_rate"] == growth
+    assert "deceleration=5" in found["name"]
+    assert run(*device, output=tmp_path) == 0
+    assert "k = 5480 N/m, which holds from 0 m of compression to 0.02 m" in capsys.readouterr().out
+    assert run("--C", "100", output=tmp_path) == 0
+    assert "small motions" not in capsys.readouterr().out
