@@ -22,7 +22,7 @@ from overrun_hitch.measure.judged import Judged
 from overrun_hitch.measure.metrics import NEEDED, Traces, measured
 from overrun_hitch.parameters import HitchError, Parameters, Quantities, Scenario, quantity
 from overrun_hitch.results import values
-from overrun_hitch.theory.linear import ShuntingMode, check_known, rebound_error, shunting_mode
+from overrun_hitch.theory.linear import REBOUND_REACH, ShuntingMode, check_known, rebound_error, shunting_mode
 from overrun_hitch.theory.working_point import working_point
 
 Floats = NDArray[np.float64]
@@ -152,7 +152,7 @@ def _confirmed(unit: HitchUnit, parameters: Parameters, V: float) -> tuple[Judge
         mode = measured_mode(unit, parameters, V)
         eigenvalue, residual = mode.eigenvalue, mode.residual
     found = -eigenvalue.real / abs(eigenvalue)
-    allowed = (ALLOWED + rebound_error(parameters, V)) * theory
+    allowed = (ALLOWED + min(rebound_error(parameters, V), REBOUND_REACH)) * theory
     return Judged(f"damping ratio at {V:.4g} m/s", "1", theory, found, allowed), residual
 
 

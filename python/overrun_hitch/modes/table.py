@@ -8,7 +8,7 @@ from pathlib import Path
 
 from overrun_hitch.modes.study import Row, Stability
 from overrun_hitch.show.table import Column, Numbers, console, show_rows, show_written
-from overrun_hitch.theory.linear import rebound_error
+from overrun_hitch.theory.linear import REBOUND_REACH, rebound_error
 
 COLUMNS = (
     Numbers("V", "m/s"), Numbers("C", "N.s/m"), Numbers("growth", "1/s"), Numbers("frequency", "Hz"),
@@ -44,9 +44,10 @@ def _remarks(result: Stability) -> Iterable[str]:
         yield f"mu = {p.mu:g}: tyre stiffness C_kc = {point.linear.C_kc:.6g} N, C_kt = {point.linear.C_kt:.6g} N there"
     if "rebound" in result.approximate:
         error = max(rebound_error(point.linear.changed({"C": row.C}), row.V) for row in result.rows)
+        off = f"{error:.1g} of itself or less" if error <= REBOUND_REACH else f"more than {REBOUND_REACH:g} of itself"
         yield (
             f"approximate for rebound = {p.rebound:g}: a damper of (1 + rebound)/2 C, equal in energy a cycle; "
-            f"where the mode oscillates, the damping ratio is off by {error:.1g} of itself or less"
+            f"with the strongest damper here the damping ratio is off by {off}"
         )
 
 

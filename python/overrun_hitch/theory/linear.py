@@ -22,6 +22,8 @@ from overrun_hitch.parameters import HitchError, Parameters
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
+REBOUND_REACH = 0.1  # relative: where one damper for two costs more, how much is not told by `rebound_error`
+
 
 def equations_of_motion(parameters: Parameters, V: float, s: float = 0.0) -> tuple[Floats, Floats, Floats]:
     """Mass, damping and stiffness matrix (4, 4) of M q'' + B q' + K q = 0, q = (x_c, x_t, theta_c, theta_t).
@@ -190,7 +192,7 @@ def rebound_error(parameters: Parameters, V: float) -> float:
 
     A mass on a spring spends half a cycle on either damper, each with its own decrement. With z the damping ratio that
     the equivalent damper would give it, the whole is off by 1.5 ((rebound - 1)/(rebound + 1) z)^2 to first order; 2
-    covers what lies beyond, up to z = 0.2.
+    covers what lies beyond, as long as what comes out is not more than REBOUND_REACH.
     """
     p = parameters
     omega = float(np.abs(shunting_mode(p, V).eigenvalue))

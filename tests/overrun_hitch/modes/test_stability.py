@@ -272,7 +272,11 @@ def test_a_stronger_rebound_decays_and_is_marked(tmp_path: Path, capsys: pytest.
     assert [row["self_excited"] for row in found["shunting_mode"]] == [False]
     assert found["critical_damping"][0]["C_crit"] == pytest.approx(60.35, abs=0.01)
     assert run(*arguments, output=tmp_path) == 0
-    assert "approximate for rebound = 3: a damper of (1 + rebound)/2 C" in " ".join(capsys.readouterr().out.split())
+    told = " ".join(capsys.readouterr().out.split())
+    assert "approximate for rebound = 3: a damper of (1 + rebound)/2 C" in told
+    assert "off by 0.0003 of itself or less" in told
+    assert run("--set", "rebound=3", "--C", "80,3200", output=tmp_path) == 0
+    assert "off by more than 0.1 of itself" in " ".join(capsys.readouterr().out.split())
 
 
 @pytest.mark.parametrize("name", Parameters.having("theory", "neutral"))
