@@ -104,7 +104,7 @@ def test_a_sweep_goes_over_it(project: Path) -> None:
     assert least < median < greatest < 0.0
 
 
-@pytest.mark.parametrize("command", ["stability", "optimise"])
+@pytest.mark.parametrize("command", ["stability", pytest.param("optimise", marks=pytest.mark.full)])
 def test_linear_theory_refuses_it_by_name(project: Path, command: str) -> None:
     assert refusal(project, command, "--set", "g_new=3") == "hitch: linear theory does not know g_new = 3; allowed: 1\n"
 

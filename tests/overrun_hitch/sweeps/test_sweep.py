@@ -202,6 +202,7 @@ def running_cluster(tmp_path: Path) -> Iterator[tuple[str, subprocess.Popen[byte
                 process.wait()
 
 
+@pytest.mark.full
 def test_a_running_cluster_whose_scheduler_is_killed(
     car_trailer_fmu: Path, tmp_path: Path, undisturbed: xr.Dataset
 ) -> None:
