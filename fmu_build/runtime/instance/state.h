@@ -21,7 +21,7 @@ typedef enum {
     EVENT_MODE = 16, /* truths follow what is set */
     CONTINUOUS = 32, /* Model Exchange: truths are held while the caller integrates */
     TERMINATED = 64,
-    FAILED = 128 /* a step could not be made; what is left is the last good point, for reading only, until reset */
+    FAILED = 128 /* an assertion has failed; what is left is the last good point, for reading only, until reset */
 } Phase;
 
 typedef enum { CO_SIMULATION, CO_SIMULATION_WITH_EVENTS, MODEL_EXCHANGE } Use;
@@ -87,7 +87,7 @@ typedef struct {
     bool after_event; /* the last step has ended so */
     bool next_holds[AT_LEAST_ONE(N_RELATIONS)]; /* the truths behind it; otherwise those that are held */
     EventDensity density;
-    bool chattering; /* a step has been given up because of too many events */
+    bool asserted; /* an assertion has failed in the step that is being made */
     Ramp ramp;
     Integrator integrator;
     bool calm; /* nothing has been set since the last step */
@@ -116,6 +116,7 @@ typedef struct {
     Rodas rodas; /* room for the work inside a step: nothing in it survives the step */
     Caller caller;
     bool logs[N_LOG_CATEGORIES]; /* which categories the caller gets */
+    State before;                /* kept here while a step is made: what it is taken back to if it is given up */
 #if N_COUPLINGS > 0
     State present; /* kept here while a coupling lets the state run ahead */
 #endif

@@ -273,14 +273,11 @@ def test_never_ok_with_nan(unit: Callable[..., Unit], model: Model, end: float, 
         steps += 1
         if status == OK:
             assert np.isfinite(u.get(*[v.name for v in model.variables()])).all()
-    is_sliding = model is SLIDING
-    assert status == (DISCARD if is_sliding else ERROR)
+    assert status == DISCARD
     assert end - 0.11 < steps * 0.1 < end + 0.21
     print(u.messages())
-    assert re.search(message, u.messages("logStatusWarning" if is_sliding else "logStatusError")[-1])
+    assert re.search(message, u.messages("logStatusWarning")[-1])
     assert np.isfinite(u.get(*[v.name for v in model.states])).all()
-    assert u.step(0.1, u.get("time")[0]) == ERROR
-    assert "fmi2Reset" in u.messages()[-1]
     value = ct.c_double()
     assert u.call("fmi2GetRealStatus", 2, ct.byref(value)) == OK
     assert value.value == u.get("time")[0]
@@ -291,8 +288,8 @@ def test_never_ok_with_nan(unit: Callable[..., Unit], model: Model, end: float, 
 
 def test_huge_step_ends(car: Unit) -> None:
     running(car)
-    assert car.step(1e300) == ERROR
-    assert "minimum" in car.messages()[-1]
+    assert car.step(1e300) == DISCARD
+    assert "minimum" in car.messages("logStatusWarning")[-1]
 
 
 def test_null_arguments_and_statuses(car: Unit) -> None:
