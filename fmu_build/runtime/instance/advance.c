@@ -71,15 +71,15 @@ static bool make_step(Instance *instance, double limit, Message *why)
 }
 
 /* Begin a step. While nothing is set it may lead beyond the communication point, so that its length is up to its error
- * alone, but not beyond the next time event. It is not worth while where inputs change from step to step, nor with a
- * coupling, whose input always does. */
+ * alone, but not beyond the next time event; the stop time is none, so that it leaves no trace. It is not worth while
+ * where inputs change from step to step, nor with a coupling, whose input always does. */
 static bool set_out(Instance *instance, double target, double next, Message *why)
 {
     State *s = &instance->state;
     Course *course = &s->course;
-    const bool may_pass = N_COUPLINGS == 0 && s->calm && !s->ramp.moves && s->stop > target;
+    const bool may_pass = N_COUPLINGS == 0 && s->calm && !s->ramp.moves;
     /* What makes a longer step fail may never happen. */
-    if (!(may_pass && make_step(instance, fmin(s->stop, next), why)) && !make_step(instance, target, why)) {
+    if (!(may_pass && make_step(instance, next, why)) && !make_step(instance, target, why)) {
         return false;
     }
     course->open = course->arrival.time > target;

@@ -5,6 +5,7 @@
 
 #include "coupling.h"
 #include "discrete.h"
+#include "input_range.h"
 #include "log.h"
 #include "settle.h"
 #include "validation.h"
@@ -35,6 +36,7 @@ typedef struct {
 static void copy(Instance *instance, Departure *departure)
 {
     memcpy(&instance->before, &instance->state, sizeof instance->before);
+    instance->given_up = (double)NAN;
     departure->copied = true;
 }
 
@@ -74,14 +76,28 @@ static void go_back(Instance *instance, const Departure *departure)
 
 /* A step that cannot be made leaves nothing behind, so that the caller can try another one. An assertion that has
  * failed is an error: what the model says is that all is over. */
-static Status give_up(Instance *instance, const Departure *departure, const Message *why)
+static Status give_up(Instance *instance, Departure *departure, double target, const Message *why)
 {
     if (instance->state.asserted) {
         instance->state.phase = FAILED;
         return log_error(instance, why);
     }
     go_back(instance, departure);
+    copy(instance, departure);
+    instance->given_up = target;
     return log_discard(instance, why);
+}
+
+/* Some importers repeat a step that is discarded, over and over, as it was. */
+static bool is_new(const Instance *instance, double target, const StepOptions *options, Message *why)
+{
+    if (options->intermediate != NULL || instance->given_up != target ||
+        memcmp(&instance->before, &instance->state, sizeof instance->before) != 0) {
+        return true;
+    }
+    message_write(why, "the step from %s to %s has been discarded before, and nothing has changed since",
+                  quantity(instance->state.v.time, "s").text, quantity(target, "s").text);
+    return false;
 }
 
 /* The step, the coupling's share in it included. False: why it has not arrived. */
@@ -111,19 +127,53 @@ static bool make_way(Instance *instance, Departure *departure, double target, do
     return arrived && valid_variables(&s->v, why);
 }
 
+/* What a step takes, so that a user can see why a run is slow. One that follows the course takes nothing. */
+static void log_step(const Instance *instance, const Departure *departure)
+{
+    const Counters *now = &instance->state.integrator.counters;
+    const Counters *then = departure->copied ? &instance->before.integrator.counters : now;
+    Message message;
+    if (instance->logs[LOG_STEP]) {
+        message_write(&message,
+                      "from t = %.17g s to %.17g s: %lld steps, %lld rejected, %lld repeated, %lld events, %lld "
+                      "evaluations, %lld Jacobians",
+                      departure->time, instance->state.v.time, (long long)(now->steps - then->steps),
+                      (long long)(now->rejected - then->rejected), (long long)(now->repeated - then->repeated),
+                      (long long)(now->events - then->events), (long long)(now->evaluations - then->evaluations),
+                      (long long)(now->jacobians - then->jacobians));
+        log_write(instance, LOG_STEP, STATUS_OK, &message);
+    }
+}
+
+/* A step leads from where the instance is to the caller's target, whatever lies between the two clocks. */
+static void tell_of_clock(Instance *instance, double time, double size)
+{
+    Message warning;
+    if (!instance->told_of_clock && !same_point(&instance->state, time, size)) {
+        instance->told_of_clock = true;
+        message_write(&warning,
+                      "communication point = %.17g s is not quite where the instance is, t = %.17g s: steps "
+                      "begin there, and end where they are asked to",
+                      time, instance->state.v.time);
+        log_write(instance, LOG_WARNING, STATUS_WARNING, &warning);
+    }
+}
+
 Status co_simulation_step(Instance *instance, double time, double size, const StepOptions *options, StepResult *result)
 {
     State *s = &instance->state;
     const double target = time + size;
     Message why;
     *result = (StepResult){.time = s->v.time};
-    if (!valid_step(s, time, size, &why) || !valid_ramp(s, target, &why)) {
+    if (!valid_step(s, time, size, &why) || !is_new(instance, target, options, &why)) {
         return log_error(instance, &why);
     }
+    tell_of_clock(instance, time, size);
+    input_range_look_ahead(instance, target);
     Departure departure = depart(instance, target);
     s->asserted = false;
     if (!settle_truths(instance, &why)) {
-        return give_up(instance, &departure, &why);
+        return give_up(instance, &departure, target, &why);
     }
     if (discrete_has_ended(s)) {
         message_write(&why, "no step can be made from t = %s: the model has ended the simulation there",
@@ -133,8 +183,10 @@ Status co_simulation_step(Instance *instance, double time, double size, const St
     if (!s->after_event) {
         events_watch(&s->density, s->v.time, target);
     }
-    if (!make_way(instance, &departure, target, size, options, &why)) {
-        return give_up(instance, &departure, &why);
+    const bool arrived = make_way(instance, &departure, target, size, options, &why);
+    log_step(instance, &departure);
+    if (!arrived) {
+        return give_up(instance, &departure, target, &why);
     }
     s->after_event = s->event_waits;
     s->calm = true;

@@ -29,7 +29,7 @@ typedef enum { CO_SIMULATION, CO_SIMULATION_WITH_EVENTS, MODEL_EXCHANGE } Use;
 /* DISCARD: the model cannot be evaluated there; the caller may try another point. */
 typedef enum { STATUS_OK, STATUS_WARNING, STATUS_DISCARD, STATUS_ERROR } Status;
 
-typedef enum { LOG_ERROR, LOG_WARNING, LOG_EVENT, N_LOG_CATEGORIES } LogCategory;
+typedef enum { LOG_ERROR, LOG_WARNING, LOG_EVENT, LOG_STEP, N_LOG_CATEGORIES } LogCategory;
 
 typedef void LogFunction(void *receiver, LogCategory category, Status status, const char *message);
 
@@ -115,8 +115,11 @@ typedef struct {
     State state;
     Rodas rodas; /* room for the work inside a step: nothing in it survives the step */
     Caller caller;
-    bool logs[N_LOG_CATEGORIES]; /* which categories the caller gets */
-    State before;                /* kept here while a step is made: what it is taken back to if it is given up */
+    bool logs[N_LOG_CATEGORIES];                /* which categories the caller gets */
+    bool told_of_range[AT_LEAST_ONE(N_INPUTS)]; /* the caller knows that an input has been beyond its range */
+    bool told_of_clock; /* the caller knows that its communication points are not where the instance is */
+    State before;       /* kept here while a step is made: what it is taken back to if it is given up */
+    double given_up;    /* the end of a step that has been given up from there; NAN: of none */
 #if N_COUPLINGS > 0
     State present; /* kept here while a coupling lets the state run ahead */
 #endif

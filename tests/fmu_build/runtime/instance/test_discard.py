@@ -12,7 +12,7 @@ from tests.fmu_build.runtime.coupled_models import TOWED
 from tests.fmu_build.runtime.hand_written import Model, Variable
 from tests.fmu_build.runtime.runtime_fmi3 import Unit3
 from tests.fmu_build.runtime.runtime_models import DERIVATIVE_ENDS, OSCILLATOR, ROOT_OF_NEGATIVE, SINGULAR
-from tests.fmu_build.runtime.runtime_unit import DISCARD, OK, Unit
+from tests.fmu_build.runtime.runtime_unit import DISCARD, ERROR, OK, Unit
 
 Create = Callable[..., Unit]
 
@@ -44,16 +44,28 @@ def test_chattering_then_a_shorter_step_and_another_input(unit: Create) -> None:
         assert each.set(u=0.25) == OK
         assert each.slopes(u=0.125) == OK
     before = u.state()
-    for _ in range(2):
-        assert u.step(1.0) == DISCARD
-        assert u.state() == before
-    assert all("x > 0 is chattering at t = 1.2" in message for message in u.messages("logStatusWarning"))
+    assert u.step(1.0) == DISCARD
+    assert u.state() == before
+    (message,) = u.messages("logStatusWarning")
+    assert "x > 0 is chattering at t = 1.2" in message
     for each in (u, other):
         assert each.step(0.125) == OK
         assert each.set(u=-3.0) == OK
         assert each.step(1.0) == OK
     assert u.state() == other.state()
     assert u.get("x")[0] < 0.0
+
+
+def test_the_same_step_again_is_an_error(unit: Create) -> None:
+    """FMPy repeats a discarded step as it was: that must end."""
+    u = started(unit, PUSHED)
+    assert u.step(0.5) == OK
+    statuses = [u.step(1.0), u.step(1.0)]
+    assert statuses == [DISCARD, ERROR]
+    assert "has been discarded before" in u.messages()[-1]
+    assert u.step(1.25) == DISCARD
+    assert u.set(u=-2.0) == OK
+    assert u.step(1.25) == OK
 
 
 @pytest.mark.parametrize(
