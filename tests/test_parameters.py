@@ -126,7 +126,13 @@ def test_a_value_that_is_not_finite_is_refused(unit: Unit, name: str, value: flo
         unit.set(**{name: value})
 
 
-@pytest.mark.parametrize("name", sorted({*NAMES, "brake_torque"} - {"compression_start", "V_0"}))
+def test_a_negative_torque_is_none(unit: Unit) -> None:
+    unit.slave.reset()
+    unit.start(brake_torque=-1.0)
+    assert unit.get("brake_torque").tolist() == [0.0]
+
+
+@pytest.mark.parametrize("name", sorted({*NAMES} - {"compression_start", "V_0"}))
 def test_a_negative_value_is_refused(unit: Unit, name: str) -> None:
     unit.slave.reset()
     with pytest.raises(FMICallException):

@@ -16,6 +16,7 @@ LOG_CATEGORIES = {
     "logStatusError": "Errors: what was refused or failed, and what is allowed",
     "logStatusWarning": "Warnings",
     "logEvents": "Times at which relations switch",
+    "logSteps": "What each communication step takes: integrator steps, rejections, events",
 }
 
 

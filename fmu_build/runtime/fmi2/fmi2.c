@@ -34,18 +34,15 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
     (void)visible;
     const fmi2CallbackFunctions none = {0};
     const fmi2CallbackFunctions *callbacks = functions != NULL ? functions : &none;
+    const Use use = fmuType == fmi2ModelExchange ? MODEL_EXCHANGE : CO_SIMULATION;
     const char *why = fmi2_obstacle(instanceName, fmuType, fmuGUID);
-    if (why != NULL) {
-        if (callbacks->logger != NULL) {
-            callbacks->logger(callbacks->componentEnvironment, instanceName != NULL ? instanceName : "", fmi2Error,
-                              log_category_name[LOG_ERROR], "%s", why);
-        }
-        return NULL;
-    }
-    Component *component =
-        fmi2_component_create(instanceName, fmuType == fmi2ModelExchange ? MODEL_EXCHANGE : CO_SIMULATION, callbacks);
+    Component *component = why == NULL ? fmi2_component_create(instanceName, use, callbacks) : NULL;
     if (component != NULL) {
         component->instance.logs[LOG_EVENT] = loggingOn != fmi2False;
+    } else if (callbacks->logger != NULL) {
+        callbacks->logger(callbacks->componentEnvironment, instanceName != NULL ? instanceName : "", fmi2Error,
+                          log_category_name[LOG_ERROR], "%s",
+                          why != NULL ? why : "fmi2Instantiate: there is no memory for an instance");
     }
     return component;
 }

@@ -36,7 +36,7 @@ static Component *instantiate(Use use, fmi3String name, fmi3String token, fmi3Bo
         return NULL;
     }
     for (int i = 0; i < N_LOG_CATEGORIES; i++) {
-        component->instance.logs[i] = logging_on;
+        component->instance.logs[i] = logging_on && i != LOG_STEP; /* which has to be asked for */
     }
     return component;
 }

@@ -48,8 +48,7 @@ static double intermediate(Instance *instance, const StepOptions *options)
     return options->may_return_early ? fmax(end, s->v.time) : (double)INFINITY;
 }
 
-/* To a time on the path of the course. */
-static void follow(State *s, double time)
+void advance_follow(State *s, double time)
 {
     const Path *path = &s->course.path;
     s->v.time = time;
@@ -72,15 +71,15 @@ static bool make_step(Instance *instance, double limit, Message *why)
 }
 
 /* Begin a step. While nothing is set it may lead beyond the communication point, so that its length is up to its error
- * alone, but not beyond the next time event. It is not worth while where inputs change from step to step, nor with a
- * coupling, whose input always does. */
+ * alone, but not beyond the next time event; the stop time is none, so that it leaves no trace. It is not worth while
+ * where inputs change from step to step, nor with a coupling, whose input always does. */
 static bool set_out(Instance *instance, double target, double next, Message *why)
 {
     State *s = &instance->state;
     Course *course = &s->course;
-    const bool may_pass = N_COUPLINGS == 0 && s->calm && !s->ramp.moves && s->stop > target;
+    const bool may_pass = N_COUPLINGS == 0 && s->calm && !s->ramp.moves;
     /* What makes a longer step fail may never happen. */
-    if (!(may_pass && make_step(instance, fmin(s->stop, next), why)) && !make_step(instance, target, why)) {
+    if (!(may_pass && make_step(instance, next, why)) && !make_step(instance, target, why)) {
         return false;
     }
     course->open = course->arrival.time > target;
@@ -91,8 +90,8 @@ static bool set_out(Instance *instance, double target, double next, Message *why
     return true;
 }
 
-/* The end of the course has been reached, which began at `start` or before: an event may lie there. */
-static bool arrive(Instance *instance, double start, double next, bool events_wait, Message *why)
+/* The end of the course has been reached: an event may lie there. */
+static bool arrive(Instance *instance, double next, bool events_wait, Message *why)
 {
     State *s = &instance->state;
     const Point *arrival = &s->course.arrival;
@@ -100,9 +99,7 @@ static bool arrive(Instance *instance, double start, double next, bool events_wa
     s->course.open = false;
     if (arrival->event) {
         log_events(instance, arrival);
-        s->chattering = events_too_dense(&s->density, arrival->time, s->holds, arrival->holds, why);
-        if (s->chattering) {
-            follow(s, start);
+        if (events_too_dense(&s->density, arrival->time, s->holds, arrival->holds, why)) {
             return false;
         }
     }
@@ -114,7 +111,6 @@ static bool arrive(Instance *instance, double start, double next, bool events_wa
 static bool advance(Instance *instance, double target, bool events_wait, Message *why)
 {
     State *s = &instance->state;
-    const double start = s->v.time;
     const double next = discrete_next_time(s);
     const double end = discrete_is_due_at(target, next) ? next : target; /* exactly there, for the sake of truths */
     s->current = false;
@@ -122,10 +118,10 @@ static bool advance(Instance *instance, double target, bool events_wait, Message
         return false;
     }
     if (s->course.open && s->course.arrival.time > end) {
-        follow(s, end);
+        advance_follow(s, end);
         return discrete_check(instance, why);
     }
-    return arrive(instance, start, next, events_wait, why);
+    return arrive(instance, next, events_wait, why);
 }
 
 bool advance_to(Instance *instance, double target, const StepOptions *options, Message *why)
@@ -152,7 +148,7 @@ bool advance_to(Instance *instance, double target, const StepOptions *options, M
 bool advance_again(Instance *instance, double start, double target, const StepOptions *options, Message *why)
 {
     State *s = &instance->state;
-    follow(s, fmax(start, s->course.path.time));
+    advance_follow(s, fmax(start, s->course.path.time));
     s->calm = s->course.open = false;
     return advance_to(instance, target, options, why);
 }

@@ -18,6 +18,9 @@ typedef struct {
  * before. False: why it has not arrived. */
 bool advance_to(Instance *instance, double target, const StepOptions *options, Message *why);
 
+/* To a time on the path of the course. */
+void advance_follow(State *s, double time);
+
 /* The course has overlooked that a surface is crossed: the same from `start`, or where the course begins, by steps that
  * end at target. */
 bool advance_again(Instance *instance, double start, double target, const StepOptions *options, Message *why);

@@ -15,7 +15,8 @@ typedef struct {
 Status co_simulation_set_slopes(Instance *instance, const unsigned references[], size_t n, const double slopes[]);
 
 /* Integrate from the communication point `time`, where the instance must be, to time + size. Events are left to the
- * caller if the instance is used so and the step may return early; otherwise they are handled on the way. */
+ * caller if the instance is used so and the step may return early; otherwise they are handled on the way.
+ * STATUS_DISCARD: the step cannot be made, and the instance is as it was before the call. */
 Status co_simulation_step(Instance *instance, double time, double size, const StepOptions *options, StepResult *result);
 
 #endif

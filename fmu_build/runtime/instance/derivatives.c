@@ -125,9 +125,7 @@ Status derivatives_by_time(Instance *instance, References variables, const int o
     for (int i = 0; i < N_STATES; i++) {
         d.at[FIRST_STATE + i] = s->v.at[FIRST_DERIVATIVE + i];
     }
-    for (int i = 0; i < N_INPUTS; i++) {
-        d.at[FIRST_INPUT + i] = s->ramp.slope[i];
-    }
+    ramp_rates(&s->ramp, &s->v, &d);
     model_tangent(&s->v, s->holds, false, &d);
     coupling_values_still(s, &d);
     return harvest(&d, variables, values, &why) ? STATUS_OK : log_error(instance, &why);

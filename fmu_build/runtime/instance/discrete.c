@@ -100,6 +100,7 @@ static bool look_at(Instance *instance, int first, int last, Message *why)
             Message at;
             message_write(&at, "%s (t = %s)", why->text, quantity(s->v.time, "s").text);
             if (checks[i].kind == FAIL) {
+                s->asserted = true;
                 *why = at;
                 return false;
             }

@@ -5,6 +5,7 @@
 
 #include "coupling_values.h"
 #include "discrete.h"
+#include "input_range.h"
 #include "log.h"
 #include "loops.h"
 #include "settle.h"
@@ -128,24 +129,27 @@ Status instance_get(Instance *instance, ValueType type, const unsigned reference
     return STATUS_OK;
 }
 
-Status instance_set(Instance *instance, ValueType type, const unsigned references[], size_t n, const double values[])
+Status instance_check(const Instance *instance, ValueType type, unsigned reference, double value)
+{
+    Message why;
+    if (!valid_type(reference, type, &why) || !valid_setting(reference, value, instance->state.phase, &why)) {
+        return log_error(instance, &why);
+    }
+    return valid_range(reference, value, &why) ? STATUS_OK : log_discard(instance, &why);
+}
+
+void instance_set(Instance *instance, unsigned reference, double value)
 {
     State *s = &instance->state;
-    Message why;
-    for (size_t i = 0; i < n; i++) {
-        if (!valid_type(references[i], type, &why) || !valid_value(references[i], values[i], s->phase, &why)) {
-            return log_error(instance, &why);
-        }
+    const VariableInfo *info = &variable_info[reference];
+    const double acting = info->kind == INPUT && info->type == REAL
+                              ? input_range_limited(instance, (int)reference - FIRST_INPUT, value)
+                              : value;
+    coupling_values_note(s, reference);
+    if (s->v.at[reference] != acting) { /* an input held constant must leave no trace in the integration */
+        s->v.at[reference] = acting;
+        s->settled = s->current = false;
+        discrete_expect(s);
+        disturb(s);
     }
-    for (size_t i = 0; i < n; i++) {
-        double *value = &s->v.at[references[i]];
-        coupling_values_note(s, references[i]);
-        if (*value != values[i]) { /* an input held constant must leave no trace in the integration */
-            *value = values[i];
-            s->settled = s->current = false;
-            discrete_expect(s);
-            disturb(s);
-        }
-    }
-    return STATUS_OK;
 }

@@ -24,6 +24,12 @@ Status instance_terminate(Instance *instance);
 
 /* Values by value reference: the index in Variables. All must be of that type. */
 Status instance_get(Instance *instance, ValueType type, const unsigned references[], size_t n, double values[]);
-Status instance_set(Instance *instance, ValueType type, const unsigned references[], size_t n, const double values[]);
+
+/* Whether a value can be set: STATUS_ERROR if the variable cannot, or not to what is not finite, STATUS_DISCARD if it
+ * is out of its range. A Real input never is: the limit acts, see input_range.h. */
+Status instance_check(const Instance *instance, ValueType type, unsigned reference, double value);
+
+/* Set what has been checked. */
+void instance_set(Instance *instance, unsigned reference, double value);
 
 #endif

@@ -6,6 +6,7 @@ const char *const log_category_name[N_LOG_CATEGORIES] = {
     [LOG_ERROR] = "logStatusError",
     [LOG_WARNING] = "logStatusWarning",
     [LOG_EVENT] = "logEvents",
+    [LOG_STEP] = "logSteps",
 };
 
 void log_write(const Instance *instance, LogCategory category, Status status, const Message *message)

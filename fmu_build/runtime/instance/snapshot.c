@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "log.h"
+#include "state_check.h"
 
 typedef struct {
     uint64_t magic; /* kind and version of the layout; reads differently in another byte order */
@@ -140,6 +141,7 @@ Status snapshot_write(Instance *instance, const void *saved, void *bytes, size_t
 Status snapshot_read(Instance *instance, const void *bytes, size_t size, void **slot)
 {
     Snapshot read;
+    Message why;
     if (!call_is_complete(instance, DESERIALIZE_FMU_STATE, bytes != NULL && slot != NULL)) {
         return STATUS_ERROR;
     }
@@ -151,6 +153,9 @@ Status snapshot_read(Instance *instance, const void *bytes, size_t size, void **
     }
     if (text != NULL) {
         return refuse_snapshot(instance, text);
+    }
+    if (!state_check(&read.state, &why)) {
+        return log_error(instance, &why);
     }
     if (make_room(instance, slot) != STATUS_OK) {
         return STATUS_ERROR;

@@ -20,8 +20,8 @@ Status snapshot_free(Instance *instance, void **slot);
 Status snapshot_size(Instance *instance, const void *saved, size_t *size);
 Status snapshot_write(Instance *instance, const void *saved, void *bytes, size_t size);
 
-/* Bytes to a saved state, in *slot as above; refused, with nothing written, if they are not one of this very model, or
- * damaged. */
+/* Bytes to a saved state, in *slot as above; refused, with nothing written, if they are not one of this very model,
+ * damaged, or made up: see state_check.h. */
 Status snapshot_read(Instance *instance, const void *bytes, size_t size, void **slot);
 
 #endif

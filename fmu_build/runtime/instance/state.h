@@ -21,7 +21,7 @@ typedef enum {
     EVENT_MODE = 16, /* truths follow what is set */
     CONTINUOUS = 32, /* Model Exchange: truths are held while the caller integrates */
     TERMINATED = 64,
-    FAILED = 128 /* a step could not be made; what is left is the last good point, for reading only, until reset */
+    FAILED = 128 /* an assertion has failed; what is left is the last good point, for reading only, until reset */
 } Phase;
 
 typedef enum { CO_SIMULATION, CO_SIMULATION_WITH_EVENTS, MODEL_EXCHANGE } Use;
@@ -29,7 +29,7 @@ typedef enum { CO_SIMULATION, CO_SIMULATION_WITH_EVENTS, MODEL_EXCHANGE } Use;
 /* DISCARD: the model cannot be evaluated there; the caller may try another point. */
 typedef enum { STATUS_OK, STATUS_WARNING, STATUS_DISCARD, STATUS_ERROR } Status;
 
-typedef enum { LOG_ERROR, LOG_WARNING, LOG_EVENT, N_LOG_CATEGORIES } LogCategory;
+typedef enum { LOG_ERROR, LOG_WARNING, LOG_EVENT, LOG_STEP, N_LOG_CATEGORIES } LogCategory;
 
 typedef void LogFunction(void *receiver, LogCategory category, Status status, const char *message);
 
@@ -101,7 +101,7 @@ typedef struct {
     bool after_event; /* the last step has ended so */
     bool next_holds[AT_LEAST_ONE(N_RELATIONS)]; /* the truths behind it; otherwise those that are held */
     EventDensity density;
-    bool chattering; /* a step has been given up because of too many events */
+    bool asserted; /* an assertion has failed in the step that is being made */
     Ramp ramp;
     Integrator integrator;
     bool calm; /* nothing has been set since the last step */
@@ -129,7 +129,11 @@ typedef struct {
     State state;
     Rodas rodas; /* room for the work inside a step: nothing in it survives the step */
     Caller caller;
-    bool logs[N_LOG_CATEGORIES]; /* which categories the caller gets */
+    bool logs[N_LOG_CATEGORIES];                /* which categories the caller gets */
+    bool told_of_range[AT_LEAST_ONE(N_INPUTS)]; /* the caller knows that an input has been beyond its range */
+    bool told_of_clock; /* the caller knows that its communication points are not where the instance is */
+    State before;       /* kept here while a step is made: what it is taken back to if it is given up */
+    double given_up;    /* the end of a step that has been given up from there; NAN: of none */
 #if N_COUPLINGS > 0
     State present; /* kept here while a coupling lets the state run ahead */
 #endif

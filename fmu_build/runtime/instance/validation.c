@@ -2,16 +2,17 @@
 
 #include <math.h>
 
+#include "event_time.h"
 #include "finite.h"
 #include "loops.h"
 
 static const double LOOSEST_TOLERANCE = 1e-2;
 static const double TIGHTEST_TOLERANCE = 1e-12;
 
-/* Callers sum up their communication points in various ways: equal times may differ by this much, relatively. */
+/* Of a step. Callers sum up their communication points in various ways, and some round them, to 1e-6 s for instance. A
+ * point so near is taken for where the instance is; one beyond the first share is no rounding error of a sum. */
 static const double SAME_POINT = 1e-9;
-/* And so may inputs that are extrapolated. */
-static const double BEYOND_RANGE = 1e-9;
+static const double NEAR_POINT = 1e-2;
 
 bool valid_reference(unsigned reference, Message *why)
 {
@@ -66,7 +67,14 @@ static const char *why_not_set(VariableKind kind, ValueType type, Phase phase)
     return "it is calculated";
 }
 
-bool valid_value(unsigned reference, double value, Phase phase, Message *why)
+static bool refuse_value(const VariableInfo *info, double value, Message *why)
+{
+    message_write(why, "%s = %s is not allowed: its range is %s to %s", info->name, quantity(value, info->unit).text,
+                  quantity(info->min, info->unit).text, quantity(info->max, info->unit).text);
+    return false;
+}
+
+bool valid_setting(unsigned reference, double value, Phase phase, Message *why)
 {
     if (!valid_reference(reference, why)) {
         return false;
@@ -77,12 +85,14 @@ bool valid_value(unsigned reference, double value, Phase phase, Message *why)
         message_write(why, "%s cannot be set: %s", info->name, obstacle);
         return false;
     }
-    if (isfinite(value) && value >= info->min && value <= info->max) {
-        return true;
-    }
-    message_write(why, "%s = %s is not allowed: its range is %s to %s", info->name, quantity(value, info->unit).text,
-                  quantity(info->min, info->unit).text, quantity(info->max, info->unit).text);
-    return false;
+    return isfinite(value) || refuse_value(info, value, why);
+}
+
+bool valid_range(unsigned reference, double value, Message *why)
+{
+    const VariableInfo *info = &variable_info[reference];
+    return (info->kind == INPUT && info->type == REAL) || (value >= info->min && value <= info->max) ||
+           refuse_value(info, value, why);
 }
 
 bool valid_slope(unsigned reference, double slope, Message *why)
@@ -131,6 +141,14 @@ bool valid_experiment(const double *tolerance, double start, const double *stop,
     return true;
 }
 
+/* The distance of two times may be a share of the step, and what rounding makes of times of their size. */
+static bool within(const State *s, double time, double size, double share)
+{
+    return fabs(time - s->v.time) <= share * size + SAME_TIME * fabs(s->v.time);
+}
+
+bool same_point(const State *s, double time, double size) { return within(s, time, size, SAME_POINT); }
+
 bool valid_step(const State *s, double time, double size, Message *why)
 {
     if (!(size > 0.0) || !isfinite(size)) {
@@ -138,9 +156,9 @@ bool valid_step(const State *s, double time, double size, Message *why)
                       quantity(size, "s").text);
         return false;
     }
-    if (!(fabs(time - s->v.time) <= SAME_POINT * fmax(1.0, fmax(fabs(s->v.time), size))) || !isfinite(time + size)) {
-        message_write(why, "communication point = %s is not allowed: the instance is at t = %s",
-                      quantity(time, "s").text, quantity(s->v.time, "s").text);
+    if (!within(s, time, size, NEAR_POINT) || !isfinite(time + size)) {
+        message_write(why, "communication point = %.17g s is not allowed: the instance is at t = %.17g s", time,
+                      s->v.time);
         return false;
     }
     if (s->event_waits) {
@@ -148,28 +166,10 @@ bool valid_step(const State *s, double time, double size, Message *why)
                       quantity(s->v.time, "s").text);
         return false;
     }
-    /* Fixed-step callers run over their stop time by up to half a step. */
-    if (time + size > s->stop + 0.5 * size) {
+    if (time >= s->stop) { /* a step that begins before it is made whole: see docs/fmu.md */
         message_write(why, "a step from %s to %s is not allowed: the stop time is %s", quantity(time, "s").text,
                       quantity(time + size, "s").text, quantity(s->stop, "s").text);
         return false;
-    }
-    return true;
-}
-
-bool valid_ramp(const State *s, double end, Message *why)
-{
-    for (int i = 0; i < N_INPUTS && !s->ramp.over; i++) {
-        const VariableInfo *info = &variable_info[FIRST_INPUT + i];
-        const double start = s->v.at[FIRST_INPUT + i];
-        const double value = start + s->ramp.slope[i] * (end - s->v.time);
-        const double slack = BEYOND_RANGE * fmax(info->nominal, fmax(fabs(start), fabs(value)));
-        if (!(value >= info->min - slack && value <= info->max + slack) || !isfinite(value)) {
-            message_write(why, "%s would be %s at the end of the step: its range is %s to %s", info->name,
-                          quantity(value, info->unit).text, quantity(info->min, info->unit).text,
-                          quantity(info->max, info->unit).text);
-            return false;
-        }
     }
     return true;
 }

@@ -7,14 +7,15 @@
 /* Each returns false with a message that names what is wrong. */
 bool valid_reference(unsigned reference, Message *why);
 bool valid_type(unsigned reference, ValueType type, Message *why);
-bool valid_value(unsigned reference, double value, Phase phase, Message *why);
+bool valid_setting(unsigned reference, double value, Phase phase, Message *why); /* the value finite */
+bool valid_range(unsigned reference, double value, Message *why);                /* see input_range.h for Real inputs */
 bool valid_slope(unsigned reference, double slope, Message *why);
 bool valid_result(unsigned reference, double value, double time, Message *why);
 bool valid_experiment(const double *tolerance, double start, const double *stop, Message *why);
 bool valid_step(const State *s, double time, double size, Message *why);
 
-/* Every input with a slope still inside its range at the end of the step, but for rounding. */
-bool valid_ramp(const State *s, double end, Message *why);
+/* A communication point that is allowed is, but for rounding, where the instance is. */
+bool same_point(const State *s, double time, double size);
 
 /* Every state inside its range, but for the error that the tolerance allows. */
 bool valid_states(const Point *p, double tolerance, Message *why);

@@ -87,13 +87,12 @@ Status values_set(Instance *instance, int function, ArrayType type, const unsign
     if (!call_has_values(instance, function, references, n, values, n_values)) {
         return STATUS_ERROR;
     }
-    if (type == REALS) {
-        return instance_set(instance, REAL, references, n, values);
-    }
     Status status = STATUS_OK;
     for (size_t i = 0; i < n && status == STATUS_OK; i++) {
-        const double number = load(type, values, i);
-        status = instance_set(instance, needed_type(type, references[i]), &references[i], 1, &number);
+        status = instance_check(instance, needed_type(type, references[i]), references[i], load(type, values, i));
+    }
+    for (size_t i = 0; i < n && status == STATUS_OK; i++) {
+        instance_set(instance, references[i], load(type, values, i));
     }
     return status;
 }

@@ -14,8 +14,7 @@ typedef enum {
     INTEGER_BOOLEANS           /* int32_t, false if 0, as in FMI 2 */
 } ArrayType;
 
-/* The calls `function`, with what they have to refuse. One by one, but for Reals: those before a variable that cannot
- * be got or set are got or set. */
+/* The calls `function`, with what they have to refuse. A list is set whole or not at all. */
 Status values_get(Instance *instance, int function, ArrayType type, const unsigned references[], size_t n, void *values,
                   size_t n_values);
 Status values_set(Instance *instance, int function, ArrayType type, const unsigned references[], size_t n,

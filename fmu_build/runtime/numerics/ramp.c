@@ -32,12 +32,26 @@ void ramp_begin(Ramp *ramp, const Variables *v)
     }
 }
 
+double ramp_limited(int input, double value)
+{
+    const VariableInfo *info = &variable_info[FIRST_INPUT + input];
+    return fmin(info->max, fmax(info->min, value));
+}
+
 void ramp_apply(const Ramp *ramp, Variables *v)
 {
     for (int i = 0; i < N_INPUTS && ramp->moves; i++) {
+        v->at[FIRST_INPUT + i] = ramp_limited(i, ramp->from[i] + ramp->slope[i] * (v->time - ramp->start));
+    }
+}
+
+void ramp_rates(const Ramp *ramp, const Variables *v, Variables *d)
+{
+    for (int i = 0; i < N_INPUTS; i++) {
         const VariableInfo *info = &variable_info[FIRST_INPUT + i];
-        const double value = ramp->from[i] + ramp->slope[i] * (v->time - ramp->start);
-        v->at[FIRST_INPUT + i] = fmin(info->max, fmax(info->min, value));
+        const double value = v->at[FIRST_INPUT + i];
+        const bool stays = ramp->slope[i] > 0.0 ? value >= info->max : value <= info->min;
+        d->at[FIRST_INPUT + i] = stays ? 0.0 : ramp->slope[i];
     }
 }
 

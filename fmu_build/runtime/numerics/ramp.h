@@ -20,8 +20,14 @@ void ramp_set(Ramp *ramp, int input, double slope);
 /* The inputs in v are those at the beginning of a step. */
 void ramp_begin(Ramp *ramp, const Variables *v);
 
-/* Inputs at v->time, during a step. Where rounding leads one out of its range, it stays at the limit. */
+/* The value of an input that acts where it is given this one: beyond its range the limit does. */
+double ramp_limited(int input, double value);
+
+/* Inputs at v->time, during a step. Where one is led out of its range, it stays at the limit. */
 void ramp_apply(const Ramp *ramp, Variables *v);
+
+/* Their derivatives by time there, into d: 0 at a limit that is left outwards. */
+void ramp_rates(const Ramp *ramp, const Variables *v, Variables *d);
 
 /* The step is over: from now on the inputs are constant. */
 void ramp_end(Ramp *ramp);

@@ -20,7 +20,7 @@ static void add_moving_inputs(Rodas *r, const Variables *v, const bool holds[])
 {
     Variables d = {.at = {0.0}};
     d.time = 1.0;
-    memcpy(&d.at[FIRST_INPUT], r->ramp->slope, N_INPUTS * sizeof(double));
+    ramp_rates(r->ramp, v, &d);
     model_tangent(v, holds, false, &d);
     memcpy(r->time_derivative, &d.at[FIRST_DERIVATIVE], N_STATES * sizeof(double));
 }

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "model.h"
+#include "state.h"
 
 enum { MAX_LIST = 6, N_SNAPSHOTS = 4 };
 
@@ -64,6 +65,16 @@ static void list(unsigned references[MAX_LIST], double values[MAX_LIST])
         references[i] = reference();
         values[i] = number(references[i] < N_VARIABLES ? variable_info[references[i]].start : 1.0);
     }
+}
+
+/* One byte of a saved state changed, its checksum (FNV-1a) right: it must be refused or do no harm. */
+static void make_up(unsigned char *bytes, size_t size)
+{
+    unsigned char *state = bytes + size - sizeof(State);
+    uint64_t sum = 0xcbf29ce484222325u;
+    state[draw(sizeof(State))] ^= (unsigned char)(1 + draw(255));
+    for (size_t i = 0; i < sizeof(State); i++) sum = (sum ^ state[i]) * 0x100000001b3u;
+    memcpy(state - sizeof sum, &sum, sizeof sum);
 }
 
 static void fail(const char *why)

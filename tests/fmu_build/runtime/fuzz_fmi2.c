@@ -154,6 +154,39 @@ static void exchange(Unit *u)
     }
 }
 
+/* What a state that was made up does to an instance of its own. */
+static void live_with(const Unit *u, const fmi2Byte bytes[], size_t size)
+{
+    fmi2FMUstate state = NULL;
+    fmi2EventInfo info;
+    if (fmi2DeSerializeFMUstate(u->c, bytes, size, &state) == fmi2OK) {
+        fmi2Component c = fmi2Instantiate("made up", u->exchange ? fmi2ModelExchange : fmi2CoSimulation, MODEL_TOKEN, NULL,
+                                          &callbacks, 0, 0);
+        if (fmi2SetFMUstate(c, state) == fmi2OK) {
+            for (int i = 0; i < 3; i++) {
+                double t = 0.0, x[AT_LEAST_ONE(N_STATES)];
+                if (!u->exchange && fmi2GetRealStatus(c, fmi2LastSuccessfulTime, &t) == fmi2OK) {
+                    (void)fmi2DoStep(c, t, 0.01, 1);
+                }
+                (void)fmi2GetDerivatives(c, x, N_STATES);
+                for (unsigned r = 0; r < N_VARIABLES; r++) {
+                    if (variable_info[r].type == REAL && fmi2GetReal(c, &r, 1, &t) == fmi2OK && !isfinite(t)) {
+                        fail("a made up state is OK with a value that is not finite");
+                    }
+                }
+                (void)fmi2EnterEventMode(c);
+                (void)fmi2NewDiscreteStates(c, &info);
+                (void)fmi2EnterContinuousTimeMode(c);
+            }
+        }
+        (void)fmi2FreeFMUstate(c, &state);
+        fmi2FreeInstance(c);
+    } else if (fuzz_messages == fuzz_messages_before) {
+        fail("a made up state is refused without a message");
+    }
+    fuzz_messages_before = fuzz_messages;
+}
+
 static void snapshot(Unit *u)
 {
     static fmi2Byte bytes[65536];
@@ -184,6 +217,10 @@ static void snapshot(Unit *u)
             if (damaged) bytes[draw((uint32_t)size)] ^= (fmi2Byte)(1u << draw(8));
             const size_t given = rarely() ? draw((uint32_t)size) : size;
             (void)CALL(fmi2DeSerializeFMUstate, ALWAYS_, !damaged && given == size, NULL, 0, bytes, given, s);
+            if (!damaged) {
+                make_up((unsigned char *)bytes, size);
+                live_with(u, bytes, size);
+            }
         }
     }
 }

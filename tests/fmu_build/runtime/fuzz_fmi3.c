@@ -240,6 +240,42 @@ static void exchange(Unit *u)
     }
 }
 
+/* What a state that was made up does to an instance of its own. */
+static void live_with(const Unit *u, const fmi3Byte bytes[], size_t size)
+{
+    fmi3FMUState state = NULL;
+    if (fmi3DeserializeFMUState(u->c, bytes, size, &state) == fmi3OK) {
+        fmi3Instance c =
+            u->exchange ? fmi3InstantiateModelExchange("made up", MODEL_TOKEN, NULL, false, true, NULL, log_message)
+                        : fmi3InstantiateCoSimulation("made up", MODEL_TOKEN, NULL, false, true, u->events, true, NULL, 0,
+                                                      NULL, log_message, NULL);
+        if (fmi3SetFMUState(c, state) == fmi3OK) {
+            for (int i = 0; i < 3; i++) {
+                bool b[5];
+                double t = 0.0, x[AT_LEAST_ONE(N_STATES)];
+                const unsigned time = 0;
+                if (fmi3GetFloat64(c, &time, 1, &t, 1) == fmi3OK && !u->exchange) {
+                    (void)fmi3DoStep(c, t, 0.01, true, &b[0], &b[1], &b[2], &t);
+                }
+                (void)fmi3GetContinuousStateDerivatives(c, x, N_STATES);
+                for (unsigned r = 0; r < N_VARIABLES; r++) {
+                    if (variable_info[r].type == REAL && fmi3GetFloat64(c, &r, 1, &t, 1) == fmi3OK && !isfinite(t)) {
+                        fail("a made up state is OK with a value that is not finite");
+                    }
+                }
+                (void)fmi3EnterEventMode(c);
+                (void)fmi3UpdateDiscreteStates(c, &b[0], &b[1], &b[2], &b[3], &b[4], &t);
+                (void)(u->exchange ? fmi3EnterContinuousTimeMode : fmi3EnterStepMode)(c);
+            }
+        }
+        (void)fmi3FreeFMUState(c, &state);
+        fmi3FreeInstance(c);
+    } else if (fuzz_messages == fuzz_messages_before) {
+        fail("a made up state is refused without a message");
+    }
+    fuzz_messages_before = fuzz_messages;
+}
+
 static void snapshot(Unit *u)
 {
     static fmi3Byte bytes[65536];
@@ -270,6 +306,10 @@ static void snapshot(Unit *u)
             if (damaged) bytes[draw((uint32_t)size)] ^= (fmi3Byte)(1u << draw(8));
             const size_t given = rarely() ? draw((uint32_t)size) : size;
             (void)CALL(fmi3DeserializeFMUState, ALWAYS_, !damaged && given == size, NULL, 0, bytes, given, s);
+            if (!damaged) {
+                make_up((unsigned char *)bytes, size);
+                live_with(u, bytes, size);
+            }
         }
     }
 }

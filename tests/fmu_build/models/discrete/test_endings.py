@@ -73,7 +73,7 @@ def test_an_assertion_at_an_event(way: Way) -> None:
 
 
 def test_events_without_end_are_given_up(co_simulation: Way) -> None:
-    """FMPy asks for another step after a discarded one; that is refused."""
+    """FMPy asks for the same step again after a discarded one; that is refused."""
     with pytest.raises(FMICallException):
         co_simulation.run(CHATTERING, 3.0, 0.1, ["T"])
     assert any("T < 1" in m and "is chattering at t = 1 s" in m for m in co_simulation.messages)

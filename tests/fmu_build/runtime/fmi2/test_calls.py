@@ -116,6 +116,18 @@ def test_callers_memory_and_odd_resources(library: Callable[[Model], Library]) -
     assert dll.fmi2Reset(None) == ERROR
 
 
+def test_no_memory_for_an_instance_is_told(library: Callable[[Model], Library]) -> None:
+    said: list[tuple[int, bytes, bytes]] = []
+
+    def log(_env: object, _name: bytes, status: int, category: bytes, _form: bytes, text: bytes) -> None:
+        said.append((status, category, text))
+
+    callbacks = Callbacks(LOGGER(log), ALLOCATE(lambda n, size: None), FREE(lambda pointer: None))
+    dll = library(CAR_TRAILER).dll
+    assert dll.fmi2Instantiate(b"n", 1, TOKEN.encode(), None, ct.byref(callbacks), 0, 0) is None
+    assert said == [(ERROR, b"logStatusError", b"fmi2Instantiate: there is no memory for an instance")]
+
+
 def test_illegal_order(car: Unit) -> None:
     assert car.step(0.01) == ERROR
     assert car.get_status("v_c")[0] == ERROR
@@ -141,8 +153,6 @@ def test_illegal_order(car: Unit) -> None:
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"M_c": -5.0}, "M_c = -5 kg is not allowed: its range is 0.001 kg to infinity"),
-        ({"M_c": 0.0}, "M_c = 0 kg is not allowed: its range is 0.001 kg to infinity"),
         ({"C": NAN}, "C = NaN is not allowed: its range is 0 N.s/m to infinity"),
         ({"V_0": INF}, "V_0 = infinity is not allowed: its range is 0.1 m/s to infinity"),
         ({"brake_torque": -INF}, "brake_torque = -infinity is not allowed: its range is 0 N.m to infinity"),
@@ -213,16 +223,6 @@ def test_step_refuses(car: Unit, time: float, size: float) -> None:
     assert car.step(0.1, 0.1 + 1e-11) == OK
 
 
-def test_stop_time(car: Unit) -> None:
-    """Refused past it, but for the overrun of fixed steps."""
-    assert car.setup(None, 0.0, 1.0) == OK
-    assert car.initialize() == OK
-    for i in range(4):
-        assert car.step(0.3, i * 0.3 if i < 3 else 0.8999999999) in ((OK,) if i < 3 else (ERROR,))
-    assert car.step(0.15, car.time) == OK
-    assert car.step(0.15, car.time) == ERROR
-
-
 def test_outputs_before_the_first_step(car: Unit) -> None:
     assert car.setup(None, 7.0) == OK
     assert car.set(brake_torque=1000.0, compression_start=0.02) == OK
@@ -273,14 +273,11 @@ def test_never_ok_with_nan(unit: Callable[..., Unit], model: Model, end: float, 
         steps += 1
         if status == OK:
             assert np.isfinite(u.get(*[v.name for v in model.variables()])).all()
-    is_sliding = model is SLIDING
-    assert status == (DISCARD if is_sliding else ERROR)
+    assert status == DISCARD
     assert end - 0.11 < steps * 0.1 < end + 0.21
     print(u.messages())
-    assert re.search(message, u.messages("logStatusWarning" if is_sliding else "logStatusError")[-1])
+    assert re.search(message, u.messages("logStatusWarning")[-1])
     assert np.isfinite(u.get(*[v.name for v in model.states])).all()
-    assert u.step(0.1, u.get("time")[0]) == ERROR
-    assert "fmi2Reset" in u.messages()[-1]
     value = ct.c_double()
     assert u.call("fmi2GetRealStatus", 2, ct.byref(value)) == OK
     assert value.value == u.get("time")[0]
@@ -291,8 +288,8 @@ def test_never_ok_with_nan(unit: Callable[..., Unit], model: Model, end: float, 
 
 def test_huge_step_ends(car: Unit) -> None:
     running(car)
-    assert car.step(1e300) == ERROR
-    assert "minimum" in car.messages()[-1]
+    assert car.step(1e300) == DISCARD
+    assert "minimum" in car.messages("logStatusWarning")[-1]
 
 
 def test_null_arguments_and_statuses(car: Unit) -> None:
@@ -344,9 +341,10 @@ def test_log_categories(unit: Callable[..., Unit]) -> None:
 
 def test_input_range_and_model_without_states(unit: Callable[..., Unit]) -> None:
     u = unit(NO_STATES)
-    assert u.set(u=11.0) == ERROR
-    assert u.messages()[-1] == "u = 11 N is not allowed: its range is -10 N to 10 N"
+    assert u.set(u=11.0) == OK
     assert u.initialize() == OK
+    assert u.get("u")[0] == 10.0
+    assert u.set(u=1.0) == OK
     assert u.step(1e-3) == OK
     assert u.get("y")[0] == 1.0
 

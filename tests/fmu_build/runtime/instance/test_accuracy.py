@@ -137,5 +137,5 @@ def test_stops_where_the_model_ends(unit: Callable[..., Unit]) -> None:
     while status == OK and u.time < 60:
         status = u.step(0.1)
     print(u.messages())
-    assert "fallen below its minimum of 0.1 m/s at t = " in u.messages()[-1]
+    assert "fallen below its minimum of 0.1 m/s at t = " in u.messages("logStatusWarning")[-1]
     assert u.get("v_c", "v_t").min() > 0.0999

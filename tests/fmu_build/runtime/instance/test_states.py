@@ -6,13 +6,17 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from time import perf_counter
 
 import numpy as np
 import pytest
+from numpy.random import default_rng
 
+from tests.fmu_build.runtime.coupled_models import TOWED
+from tests.fmu_build.runtime.generated_models import EVENTS, generate
 from tests.fmu_build.runtime.hand_written import Model
 from tests.fmu_build.runtime.runtime_models import CAR_TRAILER, OSCILLATOR, SINGULAR
-from tests.fmu_build.runtime.runtime_unit import ERROR, OK, Library, Unit
+from tests.fmu_build.runtime.runtime_unit import DISCARD, ERROR, OK, Library, Unit
 
 NAMES = ["compression", "v_c", "v_t", "der_w_c"]
 
@@ -69,14 +73,13 @@ def test_before_initialization(car: Unit) -> None:
     car.drop(saved)
 
 
-def test_back_from_a_step_that_has_failed(unit: Callable[..., Unit]) -> None:
+def test_back_from_a_step_that_has_been_discarded(unit: Callable[..., Unit]) -> None:
     u = unit(SINGULAR)
     assert u.initialize() == OK
     assert u.step(0.5) == OK
     saved = u.save()
-    assert u.step(0.6) == ERROR
-    assert u.step(0.1) == ERROR
-    assert "fmi2SetFMUstate" in u.messages()[-1]
+    assert u.step(0.6) == DISCARD
+    assert u.step(0.1) == OK
     assert u.restore(saved) == OK
     assert u.step(0.4) == OK
     assert u.get("x")[0] == pytest.approx(10.0, rel=1e-4)
@@ -143,4 +146,68 @@ def test_state_of_another_kind_of_instance(unit: Callable[..., Unit]) -> None:
     saved = u.save()
     assert other.restore(saved) == ERROR
     assert "used in another way" in other.messages()[-1]
+    u.drop(saved)
+
+
+def with_checksum(data: bytes, state: bytes) -> bytes:
+    """The saved bytes with another state and the checksum that goes with it (FNV-1a)."""
+    total = 0xCBF29CE484222325
+    for byte in state:
+        total = (total ^ byte) * 0x100000001B3 & 0xFFFFFFFFFFFFFFFF
+    return data[: -len(state) - 8] + total.to_bytes(8, sys.byteorder) + state
+
+
+def live_on(u: Unit) -> None:
+    """What every instance must bear: a few calls, of which none hangs and none is OK with what is not finite."""
+    names = [name for name in u.references if name in ("time", "x", "h", "compression")]
+    for _ in range(3):
+        if u.step(0.05) == OK:
+            assert np.isfinite(u.time)
+        status, values = u.get_status(*names)
+        assert status != OK or np.isfinite(values).all()
+
+
+@pytest.mark.parametrize("which", ["CarTrailer", "Oscillator", "Towed", "Events"])
+def test_a_state_that_was_made_up_is_refused_or_harmless(unit: Callable[..., Unit], which: str, tmp_path: Path) -> None:
+    """Every byte changed, the checksum right."""
+    (tmp_path / "Events.mo").write_text(EVENTS, encoding="utf-8")
+    models = {model.name: model for model in (CAR_TRAILER, OSCILLATOR, TOWED)}
+    u = unit(models[which] if which in models else generate(tmp_path / "Events.mo", "Events"))
+    assert u.initialize() == OK
+    for _ in range(7):
+        assert u.step(0.05) == OK
+    good = u.save()
+    data, state = u.serialize(good), u.state()
+    assert with_checksum(data, state) == data
+    random = default_rng(1)
+    refused, slowest = 0, 0.0
+    for place in range(len(state)):
+        for change in (0x80, int(random.integers(1, 256))):
+            made_up = state[:place] + bytes([state[place] ^ change]) + state[place + 1 :]
+            status, saved = u.deserialize(with_checksum(data, made_up))
+            if status != OK:
+                assert not saved and u.messages()
+                refused += 1
+                continue
+            start = perf_counter()
+            if u.restore(saved) == OK:
+                live_on(u)
+            slowest = max(slowest, perf_counter() - start)
+            u.drop(saved)
+    print(f"{len(state)} bytes: {refused} of {2 * len(state)} refused; the others took at most {slowest:.3f} s")
+    assert refused > 0 and slowest < 20.0
+    assert u.restore(good) == OK
+    assert u.step(0.05) == OK
+    u.drop(good)
+
+
+@pytest.mark.parametrize("place", [8, 9])
+def test_a_truth_that_is_neither(unit: Callable[..., Unit], place: int) -> None:
+    u = unit(OSCILLATOR)
+    assert u.initialize() == OK
+    saved = u.save()
+    data, state = u.serialize(saved), u.state()
+    status, _ = u.deserialize(with_checksum(data, state[:place] + b"l" + state[place + 1 :]))
+    assert status == ERROR
+    assert "this state cannot be that of an instance" in u.messages()[-1]
     u.drop(saved)
