@@ -24,7 +24,7 @@ bool coupling_exchange_has_slope(const State *s)
 /* Neither in the last step nor in the next one does the caller give u a slope. */
 static bool is_without_slopes(const State *s) { return s->coupling.moves && !coupling_exchange_has_slope(s); }
 
-static bool is_new(const State *s)
+static bool has_changed_input(const State *s)
 {
     const Coupling *c = &s->coupling;
     return !is_without_slopes(s) || (c->is_set && s->v.at[coupling_info.across] != c->now.across);
@@ -40,7 +40,7 @@ static bool is_due(const State *s, double size)
 
 bool coupling_exchange_goes_on(const State *s, double size)
 {
-    return s->v.time > s->coupling.now.time && !is_new(s) && !is_due(s, size);
+    return s->v.time > s->coupling.now.time && !has_changed_input(s) && !is_due(s, size);
 }
 
 /* It is not long that the value has stood. */
@@ -53,7 +53,7 @@ static bool has_stood_shortly(const State *s)
 void coupling_exchange_review(State *s, double size)
 {
     Coupling *c = &s->coupling;
-    if (!is_new(s) || !is_without_slopes(s)) {
+    if (!has_changed_input(s) || !is_without_slopes(s)) {
         return;
     }
     if (!c->stands && c->parted) {
@@ -103,7 +103,7 @@ void coupling_exchange_next(State *s, double impulse)
 {
     Coupling *c = &s->coupling;
     const Exchange last = c->now;
-    const bool news = is_new(s);
+    const bool news = has_changed_input(s);
     c->before = last.across;
     c->interval = s->v.time - last.time;
     c->now = coupling_exchange_after(s, &last, impulse);

@@ -41,38 +41,25 @@ static const Field bool_fields[] = {
 #endif
 #if N_COUPLINGS > 0
     FIELD(coupling.stepped),
-    FIELD(coupling.pending),
     FIELD(coupling.moves),
     FIELD(coupling.is_set),
+    FIELD(coupling.stands),
+    FIELD(coupling.parted),
+    FIELD(coupling.several),
 #endif
 };
 
 static const Field double_fields[] = {
-    FIELD(v.time),
-    FIELD(density.span),
-    FIELD(density.since),
-    FIELD(ramp.start),
-    FIELD(ramp.from),
-    FIELD(ramp.slope),
-    FIELD(integrator.length),
-    FIELD(integrator.left_surface),
+    FIELD(v.time),          FIELD(density.span),    FIELD(density.since),     FIELD(ramp.start),
+    FIELD(ramp.from),       FIELD(ramp.slope),      FIELD(integrator.length), FIELD(integrator.left_surface),
 #if HAS_EVENTS
     FIELD(discrete.ticks),
 #endif
 #if N_COUPLINGS > 0
-    FIELD(coupling.size),
-    FIELD(coupling.start),
-    FIELD(coupling.expected),
-    FIELD(coupling.applied),
-    FIELD(coupling.work),
-    FIELD(coupling.impulse),
-    FIELD(coupling.through),
-    FIELD(coupling.mean),
+    FIELD(coupling.now), /* these two are of doubles alone */
+    FIELD(coupling.change), FIELD(coupling.before), FIELD(coupling.interval), FIELD(coupling.usual),
+    FIELD(coupling.slope),  FIELD(coupling.across), FIELD(coupling.through),  FIELD(coupling.mean),
     FIELD(coupling.hold),
-    FIELD(coupling.owed),
-    FIELD(coupling.energy),
-    FIELD(coupling.period),
-    FIELD(coupling.next_start),
 #endif
 };
 
@@ -177,8 +164,9 @@ static bool check_coupling(const State *s, Message *why)
 {
 #if N_COUPLINGS > 0
     const Coupling *c = &s->coupling;
-    const bool stepped = c->size > 0.0 && c->period > 0.0;
-    return (c->span >= 0.0 && (stepped || !c->stepped)) || disbelieve("coupling", why);
+    const bool lengths = c->span >= 0.0 && c->interval >= 0.0 && c->usual >= 0.0 && c->now.period >= 0.0;
+    const bool order = !c->stepped || (c->change.time <= c->now.time && c->now.time <= s->v.time);
+    return (lengths && order && c->doubts >= 0) || disbelieve("coupling", why);
 #else
     (void)s;
     (void)why;

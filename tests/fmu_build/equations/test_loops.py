@@ -122,7 +122,7 @@ def test_where_there_is_no_solution_the_unknowns_are_named(built: Build) -> None
     assert result["y"][-1] == pytest.approx(0.5, rel=1e-9)
     with pytest.raises(fmpy.fmi1.FMICallException, match="fmi2DoStep"):
         fmpy.simulate_fmu(fmu, stop_time=1.5, logger=log)
-    assert "no solution was found of the nonlinear equations of y (M.mo:6)" in messages[-1]
+    assert any("no solution was found of the nonlinear equations of y (M.mo:6)" in text for text in messages)
 
 
 def test_a_rollback_is_bit_equal(built: Build, tmp_path: Path) -> None:
