@@ -55,7 +55,7 @@ def hitch(project: Path, *arguments: str, status: int = 0) -> str:
     done = subprocess.run(
         [sys.executable, "-m", "overrun_hitch", *arguments],
         cwd=project,
-        env={**os.environ, "PYTHONPATH": search, "COLUMNS": "120"},
+        env={**os.environ, "PYTHONPATH": search, "COLUMNS": "120", "CFLAGS": "-O0"},
         capture_output=True,
         text=True,
         check=False,

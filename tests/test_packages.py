@@ -63,7 +63,7 @@ def test_the_sources_inside_rebuild_the_binary(car_trailer_fmus: dict[int, Path]
     command = [
         *compiler(),
         "-std=c11",
-        "-O1",
+        "-O0",
         "-ffp-contract=off",
         "-fPIC",
         "-shared",

@@ -9,14 +9,16 @@ import numpy as np
 import pytest
 
 from tests.kept import LIBRARY, kept_fmus
+from tests.sampling import sampled
 from tests.unit import Unit
 
 CLASSES = (LIBRARY / "Validation" / "package.order").read_text().split()
+SAMPLED = {"Body", "Drawbar", "PullLimit", "Tyre", "WheelAtRest", "SteadyBraking"}  # the others in `make test-all`
 STEPS = 500
 BOUND = 1e-6  # of the largest value that is expected
 
 
-@pytest.fixture(scope="module", params=CLASSES)
+@pytest.fixture(scope="module", params=sampled(CLASSES, SAMPLED))
 def checked(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, Unit]]:
     """Name of the class, and its unit."""
     with pytest.MonkeyPatch.context() as patch:
