@@ -19,9 +19,7 @@ fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t
 
 fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2String value[])
 {
-    (void)vr;
-    (void)value;
-    return call_has_no_variables(c, GET_STRING, nvr) ? fmi2OK : fmi2Error;
+    return to_fmi2(values_none(c, GET_STRING, "a String", vr, nvr, value, nvr));
 }
 
 fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Real value[])
@@ -41,7 +39,5 @@ fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t
 
 fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2String value[])
 {
-    (void)vr;
-    (void)value;
-    return call_has_no_variables(c, SET_STRING, nvr) ? fmi2OK : fmi2Error;
+    return to_fmi2(values_none(c, SET_STRING, "a String", vr, nvr, value, nvr));
 }

@@ -25,47 +25,43 @@ VARIABLES_OF_TYPE(Boolean, OTHER_TYPE, BOOLEANS)
 #undef VARIABLES_OF_TYPE
 
 /* fmi3GetInt8 and fmi3SetInt8, and so on: types that Modelica does not have. */
-#define NO_VARIABLES_OF_TYPE(Type)                                                                                     \
+#define NO_VARIABLES_OF_TYPE(Type, TYPE)                                                                               \
     fmi3Status fmi3Get##Type(fmi3Instance instance, const fmi3ValueReference valueReferences[],                        \
                              size_t nValueReferences, fmi3##Type values[], size_t nValues)                             \
     {                                                                                                                  \
-        (void)valueReferences;                                                                                         \
-        (void)values;                                                                                                  \
-        return call_has_no_variables(instance, GET_OTHER_TYPE, nValueReferences | nValues) ? fmi3OK : fmi3Error;       \
+        return to_fmi3(                                                                                                \
+            values_none(instance, GET_OTHER_TYPE, TYPE, valueReferences, nValueReferences, values, nValues));          \
     }                                                                                                                  \
     fmi3Status fmi3Set##Type(fmi3Instance instance, const fmi3ValueReference valueReferences[],                        \
                              size_t nValueReferences, const fmi3##Type values[], size_t nValues)                       \
     {                                                                                                                  \
-        (void)valueReferences;                                                                                         \
-        (void)values;                                                                                                  \
-        return call_has_no_variables(instance, SET_OTHER_TYPE, nValueReferences | nValues) ? fmi3OK : fmi3Error;       \
+        return to_fmi3(                                                                                                \
+            values_none(instance, SET_OTHER_TYPE, TYPE, valueReferences, nValueReferences, values, nValues));          \
     }
 
-NO_VARIABLES_OF_TYPE(Float32)
-NO_VARIABLES_OF_TYPE(Int8)
-NO_VARIABLES_OF_TYPE(UInt8)
-NO_VARIABLES_OF_TYPE(Int16)
-NO_VARIABLES_OF_TYPE(UInt16)
-NO_VARIABLES_OF_TYPE(UInt32)
-NO_VARIABLES_OF_TYPE(UInt64)
-NO_VARIABLES_OF_TYPE(String)
+NO_VARIABLES_OF_TYPE(Float32, "a Float32")
+NO_VARIABLES_OF_TYPE(Int8, "an Int8")
+NO_VARIABLES_OF_TYPE(UInt8, "a UInt8")
+NO_VARIABLES_OF_TYPE(Int16, "an Int16")
+NO_VARIABLES_OF_TYPE(UInt16, "a UInt16")
+NO_VARIABLES_OF_TYPE(UInt32, "a UInt32")
+NO_VARIABLES_OF_TYPE(UInt64, "a UInt64")
+NO_VARIABLES_OF_TYPE(String, "a String")
 
 #undef NO_VARIABLES_OF_TYPE
 
 fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                          size_t valueSizes[], fmi3Binary values[], size_t nValues)
 {
-    (void)valueReferences;
     (void)valueSizes;
-    (void)values;
-    return call_has_no_variables(instance, GET_OTHER_TYPE, nValueReferences | nValues) ? fmi3OK : fmi3Error;
+    return to_fmi3(
+        values_none(instance, GET_OTHER_TYPE, "a Binary", valueReferences, nValueReferences, values, nValues));
 }
 
 fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                          const size_t valueSizes[], const fmi3Binary values[], size_t nValues)
 {
-    (void)valueReferences;
     (void)valueSizes;
-    (void)values;
-    return call_has_no_variables(instance, SET_OTHER_TYPE, nValueReferences | nValues) ? fmi3OK : fmi3Error;
+    return to_fmi3(
+        values_none(instance, SET_OTHER_TYPE, "a Binary", valueReferences, nValueReferences, values, nValues));
 }

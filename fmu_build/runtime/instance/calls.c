@@ -85,9 +85,3 @@ bool call_has_values(Instance *instance, int function, const unsigned references
     return call_has_array(instance, function, values, n_values, n) &&
            call_has_arguments(instance, function, n == 0 || references != NULL);
 }
-
-bool call_has_no_variables(Instance *instance, int function, size_t n)
-{
-    return call_is_legal(instance, function) &&
-           (n == 0 || refuse_call(instance, function, ": there are no variables of this type"));
-}

@@ -75,8 +75,6 @@ bool call_has_array(Instance *instance, int function, const void *array, size_t 
 bool call_has_values(Instance *instance, int function, const unsigned references[], size_t n, const void *values,
                      size_t n_values);
 
-/* For variables of types that the model does not have: legal, and the list is empty. */
-bool call_has_no_variables(Instance *instance, int function, size_t n);
 
 const char *call_name(const Instance *instance, int function);
 

@@ -23,18 +23,23 @@ bool valid_reference(unsigned reference, Message *why)
     return false;
 }
 
+static const char type_names[][16] = {
+    [REAL] = "a Real", [INTEGER] = "an Integer", [BOOLEAN] = "a Boolean", [ENUMERATION] = "an enumeration"};
+
+void explain_type(unsigned reference, const char *type, Message *why)
+{
+    if (valid_reference(reference, why)) {
+        message_write(why, "%s is %s, not %s", variable_info[reference].name, type_names[variable_info[reference].type],
+                      type);
+    }
+}
+
 bool valid_type(unsigned reference, ValueType type, Message *why)
 {
-    static const char type_names[][16] = {
-        [REAL] = "a Real", [INTEGER] = "an Integer", [BOOLEAN] = "a Boolean", [ENUMERATION] = "an enumeration"};
-    if (!valid_reference(reference, why)) {
-        return false;
-    }
-    if (variable_info[reference].type == type) {
+    if (reference < N_VARIABLES && variable_info[reference].type == type) {
         return true;
     }
-    message_write(why, "%s is %s, not %s", variable_info[reference].name, type_names[variable_info[reference].type],
-                  type_names[type]);
+    explain_type(reference, type_names[type], why);
     return false;
 }
 

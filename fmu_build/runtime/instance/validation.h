@@ -14,6 +14,9 @@ bool valid_result(unsigned reference, double value, double time, Message *why);
 bool valid_experiment(const double *tolerance, double start, const double *stop, Message *why);
 bool valid_step(const State *s, double time, double size, Message *why);
 
+/* Why a variable is none of `type`, such as "a String": there is no such variable, or it is of another type. */
+void explain_type(unsigned reference, const char *type, Message *why);
+
 /* A communication point that is allowed is, but for rounding, where the instance is. */
 bool same_point(const State *s, double time, double size);
 

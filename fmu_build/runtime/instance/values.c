@@ -3,6 +3,8 @@
 #include <stdint.h>
 
 #include "instance.h"
+#include "log.h"
+#include "validation.h"
 
 /* The type that a variable in such an array must have. */
 static ValueType needed_type(ArrayType type, unsigned reference)
@@ -95,4 +97,18 @@ Status values_set(Instance *instance, int function, ArrayType type, const unsign
         instance_set(instance, references[i], load(type, values, i));
     }
     return status;
+}
+
+Status values_none(Instance *instance, int function, const char *type, const unsigned references[], size_t n,
+                   const void *values, size_t n_values)
+{
+    Message why;
+    if (!call_has_values(instance, function, references, n, values, n_values)) {
+        return STATUS_ERROR;
+    }
+    if (n == 0) {
+        return STATUS_OK;
+    }
+    explain_type(references[0], type, &why);
+    return log_error(instance, &why);
 }

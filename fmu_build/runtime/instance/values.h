@@ -20,4 +20,9 @@ Status values_get(Instance *instance, int function, ArrayType type, const unsign
 Status values_set(Instance *instance, int function, ArrayType type, const unsigned references[], size_t n,
                   const void *values, size_t n_values);
 
+/* The same for `type` ("a String"), of which there are no variables: of what is asked for, the first one is refused by
+ * name. */
+Status values_none(Instance *instance, int function, const char *type, const unsigned references[], size_t n,
+                   const void *values, size_t n_values);
+
 #endif
