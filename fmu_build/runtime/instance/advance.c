@@ -10,6 +10,14 @@
 /* More steps than this between two communication points are taken for a run without end. */
 enum { MAX_INTEGRATOR_STEPS = 1000000 };
 
+/* The steps since the communication point, to tell why they are so many. Events of relations are not: these would
+ * have been taken for chattering before. */
+typedef struct {
+    double start;
+    int steps;
+    int time_events; /* that have ended steps */
+} Tally;
+
 static void log_events(const Instance *instance, const Point *arrival)
 {
     for (int i = 0; i < N_RELATIONS && instance->logs[LOG_EVENT]; i++) {
@@ -91,12 +99,13 @@ static bool set_out(Instance *instance, double target, double next, Message *why
 }
 
 /* The end of the course has been reached: an event may lie there. */
-static bool arrive(Instance *instance, double next, bool events_wait, Message *why)
+static bool arrive(Instance *instance, double next, bool events_wait, Tally *tally, Message *why)
 {
     State *s = &instance->state;
     const Point *arrival = &s->course.arrival;
     const bool event = arrival->event || arrival->time >= next;
     s->course.open = false;
+    tally->time_events += event && !arrival->event;
     if (arrival->event) {
         log_events(instance, arrival);
         if (events_too_dense(&s->density, arrival->time, s->holds, arrival->holds, why)) {
@@ -108,7 +117,7 @@ static bool arrive(Instance *instance, double next, bool events_wait, Message *w
 }
 
 /* Go on along the course, at most to target. */
-static bool advance(Instance *instance, double target, bool events_wait, Message *why)
+static bool advance(Instance *instance, double target, bool events_wait, Tally *tally, Message *why)
 {
     State *s = &instance->state;
     const double next = discrete_next_time(s);
@@ -121,21 +130,34 @@ static bool advance(Instance *instance, double target, bool events_wait, Message
         advance_follow(s, end);
         return discrete_check(instance, why);
     }
-    return arrive(instance, next, events_wait, why);
+    return arrive(instance, next, events_wait, tally, why);
+}
+
+static bool explain_number(const Instance *instance, const Tally *tally, Message *why)
+{
+    const State *s = &instance->state;
+    message_write(why, "%d integrator steps have led from t = %s to t = %s only", tally->steps,
+                  quantity(tally->start, "s").text, quantity(s->v.time, "s").text);
+    if (tally->time_events > tally->steps / 4) {
+        discrete_explain_times(s, why);
+    } else if (N_STATES > 0) {
+        message_append(why, ": the error of %s allows no longer ones; a larger tolerance does",
+                       variable_info[FIRST_STATE + integrator_worst_state(&instance->rodas, s->tolerance)].name);
+    }
+    return false;
 }
 
 bool advance_to(Instance *instance, double target, const StepOptions *options, Message *why)
 {
     State *s = &instance->state;
     const bool events_wait = s->use == CO_SIMULATION_WITH_EVENTS && options->may_return_early;
-    for (int steps = 0; s->v.time < target && !s->event_waits && !discrete_has_ended(s); steps++) {
+    Tally tally = {.start = s->v.time};
+    for (; s->v.time < target && !s->event_waits && !discrete_has_ended(s); tally.steps++) {
         const double start = s->v.time;
-        if (steps == MAX_INTEGRATOR_STEPS) {
-            message_write(why, "%d integrator steps have led from the communication point to t = %s only",
-                          MAX_INTEGRATOR_STEPS, quantity(start, "s").text);
-            return false;
+        if (tally.steps == MAX_INTEGRATOR_STEPS) {
+            return explain_number(instance, &tally, why);
         }
-        if (!advance(instance, target, events_wait, why)) {
+        if (!advance(instance, target, events_wait, &tally, why)) {
             return false;
         }
         if (options->intermediate != NULL && s->v.time > start) {

@@ -75,7 +75,6 @@ bool call_has_array(Instance *instance, int function, const void *array, size_t 
 bool call_has_values(Instance *instance, int function, const unsigned references[], size_t n, const void *values,
                      size_t n_values);
 
-
 const char *call_name(const Instance *instance, int function);
 
 #endif

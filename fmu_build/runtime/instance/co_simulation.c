@@ -76,7 +76,7 @@ static void go_back(Instance *instance, const Departure *departure)
 
 /* A step that cannot be made leaves nothing behind, so that the caller can try another one. An assertion that has
  * failed is an error: what the model says is that all is over. */
-static Status give_up(Instance *instance, Departure *departure, double target, const Message *why)
+static Status give_up(Instance *instance, Departure *departure, double target, Message *why)
 {
     if (instance->state.asserted) {
         instance->state.phase = FAILED;
@@ -85,6 +85,8 @@ static Status give_up(Instance *instance, Departure *departure, double target, c
     go_back(instance, departure);
     copy(instance, departure);
     instance->given_up = target;
+    instance->reason = *why;
+    message_append(why, "; the instance is as before the step: a shorter one or other inputs may lead on");
     return log_discard(instance, why);
 }
 
@@ -95,8 +97,8 @@ static bool is_new(const Instance *instance, double target, const StepOptions *o
         memcmp(&instance->before, &instance->state, sizeof instance->before) != 0) {
         return true;
     }
-    message_write(why, "the step from %s to %s has been discarded before, and nothing has changed since",
-                  quantity(instance->state.v.time, "s").text, quantity(target, "s").text);
+    message_write(why, "the step from %s to %s has been discarded before, and nothing has changed since: %s",
+                  quantity(instance->state.v.time, "s").text, quantity(target, "s").text, instance->reason.text);
     return false;
 }
 

@@ -75,18 +75,18 @@ void discrete_remember(State *s)
     }
 }
 
-/* True if some state has got a value, be it the one that it had. */
-static bool reinitialize(State *s)
+/* The last reinit by which a state has got a value, be it the one that it had; -1 if none has. */
+static int reinitialize(State *s)
 {
-    bool any = false;
+    int last = -1;
     for (int i = 0; i < N_REINITS; i++) {
         if (is_set(s, reinits[i].active)) {
             s->v.at[reinits[i].state] = s->v.at[reinits[i].value];
-            any = true;
+            last = i;
         }
     }
-    s->discrete.states_changed = s->discrete.states_changed || any;
-    return any;
+    s->discrete.states_changed = s->discrete.states_changed || last >= 0;
+    return last;
 }
 
 /* Checks from first to last - 1: warnings are given once, until what they warn of is over. */
@@ -127,19 +127,20 @@ static bool iterate(Instance *instance, bool *any, Message *why)
 {
     State *s = &instance->state;
     int changed = -1;
+    int reset = -1;
     for (int round = 0; round < MAX_ROUNDS; round++) {
         if (!discrete_settle(s, false, why) || !look_at(instance, 0, N_EVENT_CHECKS, why)) {
             return false;
         }
-        const bool reset = reinitialize(s);
+        reset = reinitialize(s);
         changed = take_memories(s);
-        if (!reset && changed < 0) {
+        if (reset < 0 && changed < 0) {
             return true;
         }
         *any = true;
     }
     message_write(why, "the event at t = %s does not end: %s changes without end", quantity(s->v.time, "s").text,
-                  changed < 0 ? "a state" : variable_info[memories[changed].variable].name);
+                  variable_info[changed < 0 ? reinits[reset].state : memories[changed].variable].name);
     return false;
 }
 
@@ -253,6 +254,22 @@ double discrete_next_time(const State *s)
         next = is_there(time, s->v.time) ? next : fmin(next, time);
     }
     return next;
+}
+
+/* The sample with the shortest interval, if there are samples. */
+void discrete_explain_times(const State *s, Message *why)
+{
+    int shortest = 0;
+    for (int i = 1; i < N_SAMPLES; i++) {
+        shortest = s->v.at[samples[i].interval] < s->v.at[samples[shortest].interval] ? i : shortest;
+    }
+    if (N_SAMPLES == 0) {
+        message_append(why, ": they end at events of the time alone");
+        return;
+    }
+    message_append(why, ": they end at ticks, the densest those of sample(%s, %s)",
+                   quantity(s->v.at[samples[shortest].start], "s").text,
+                   quantity(s->v.at[samples[shortest].interval], "s").text);
 }
 
 bool discrete_is_due_at(double time, double next) { return isfinite(next) && is_there(next, time); }

@@ -35,6 +35,9 @@ void discrete_terminate(Instance *instance);
 /* The time of the next event that is known beforehand; INFINITY if there is none. */
 double discrete_next_time(const State *s);
 
+/* What makes events that are known beforehand so many: behind what is said of them. */
+void discrete_explain_times(const State *s, Message *why);
+
 /* Whether an event that is due at `next` is to be handled in a step to `time`: callers sum up their times. */
 bool discrete_is_due_at(double time, double next);
 
@@ -84,6 +87,12 @@ static inline double discrete_next_time(const State *s)
 {
     (void)s;
     return (double)INFINITY;
+}
+
+static inline void discrete_explain_times(const State *s, Message *why)
+{
+    (void)s;
+    (void)why;
 }
 
 static inline bool discrete_is_due_at(double time, double next)

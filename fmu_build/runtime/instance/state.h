@@ -134,6 +134,7 @@ typedef struct {
     bool told_of_clock; /* the caller knows that its communication points are not where the instance is */
     State before;       /* kept here while a step is made: what it is taken back to if it is given up */
     double given_up;    /* the end of a step that has been given up from there; NAN: of none */
+    Message reason;     /* and why */
 #if N_COUPLINGS > 0
     State present; /* kept here while a coupling lets the state run ahead */
 #endif

@@ -207,8 +207,11 @@ bool events_too_dense(EventDensity *density, double time, const bool before[], c
         while (changed < N_RELATIONS - 1 && before[changed] == after[changed]) {
             changed++;
         }
-        message_write(why, "the relation %s is chattering at t = %s: it changes without end", relation_text[changed],
-                      quantity(time, "s").text);
+        message_write(why,
+                      "the relation %s is chattering at t = %s: it changes without end; where either side leads back "
+                      "to the other, as in dry friction, the model needs a smooth law, tanh(v/v_small) instead of "
+                      "sign(v), or one with a deflection that sticks",
+                      relation_text[changed], quantity(time, "s").text);
     }
     return dense;
 }

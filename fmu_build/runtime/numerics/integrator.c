@@ -137,7 +137,7 @@ static bool explain_start(const Rodas *r, const Variables *v, int state, Message
     return false;
 }
 
-static int worst_state(const Rodas *r, double tolerance)
+int integrator_worst_state(const Rodas *r, double tolerance)
 {
     int worst = 0;
     for (int i = 1; i < N_STATES; i++) {
@@ -146,13 +146,34 @@ static int worst_state(const Rodas *r, double tolerance)
     return worst;
 }
 
+/* The state that would leave what is allowed first, by its derivative at the start. */
+static int fastest_state(const Rodas *r, double tolerance)
+{
+    int fastest = 0;
+    double most = 0.0;
+    for (int i = 0; i < N_STATES; i++) {
+        const double speed = fabs(r->derivative[i]) / integrator_allowed_error(i, r->path.state[i], tolerance);
+        fastest = speed > most ? i : fastest;
+        most = larger(speed, most);
+    }
+    return fastest;
+}
+
+/* v is left where the last trial has ended. */
 static bool explain_collapse(const Rodas *r, const Variables *v, int not_finite, double tolerance, Message *why)
 {
-    const bool finite = not_finite == FINITE;
-    const int state = finite ? worst_state(r, tolerance) : not_finite;
-    message_write(why, "no step can be made from t = %s, however small: %s %s", quantity(r->path.time, "s").text,
-                  finite ? "the largest error is that of" : "not finite is the derivative of",
-                  N_STATES > 0 ? variable_info[FIRST_STATE + state].name : "nothing");
+    const bool overflown = not_finite != FINITE && (isfinite(v->at[FIRST_DERIVATIVE + not_finite]) ||
+                                                    first_not_finite(&v->at[FIRST_STATE], N_STATES) != FINITE);
+    const int state = not_finite == FINITE ? integrator_worst_state(r, tolerance)
+                      : overflown          ? fastest_state(r, tolerance)
+                                           : not_finite;
+    message_write(why, "no step can be made from t = %s, however small: %s %s%s", quantity(r->path.time, "s").text,
+                  not_finite == FINITE ? "the largest error is that of"
+                  : overflown          ? "beyond all numbers leads the derivative of"
+                                       : "not finite is the derivative of",
+                  N_STATES > 0 ? variable_info[FIRST_STATE + state].name : "nothing",
+                  not_finite == FINITE ? ", as where its derivative jumps outside of an event or grows without bound"
+                                       : "");
     loops_explain(v, why);
     return false;
 }

@@ -44,6 +44,9 @@ void integrator_discontinuity(Integrator *m);
 bool integrator_step(Integrator *m, Rodas *r, Variables *v, const bool holds[], const Ramp *ramp, double target,
                      double tolerance, Point *arrival, Message *why);
 
+/* The state whose error, relative to what is allowed, was the largest in the last trial; 0 if there are none. */
+int integrator_worst_state(const Rodas *r, double tolerance);
+
 /* The error of a state's value that the tolerance allows. */
 double integrator_allowed_error(int state, double value, double tolerance);
 

@@ -79,6 +79,27 @@ def test_events_without_end_are_given_up(co_simulation: Way) -> None:
     assert any("T < 1" in m and "is chattering at t = 1 s" in m for m in co_simulation.messages)
 
 
+TICKING = """
+model Ticking
+  discrete Real x(start=0, fixed=true);
+  discrete Real y(start=0, fixed=true);
+equation
+  when sample(0, 1) then
+    x = pre(x) + 1;
+  end when;
+  when sample(0.1, 1e-6) then
+    y = pre(y) + 1;
+  end when;
+end Ticking;
+"""
+
+
+def test_ticks_that_are_too_many_are_told(co_simulation: Way) -> None:
+    with pytest.raises(FMICallException):
+        co_simulation.run(TICKING, 2.0, 2.0, ["x"])
+    assert any("they end at ticks, the densest those of sample(0.1 s, 1e-06 s)" in m for m in co_simulation.messages)
+
+
 IMPATIENT = """
 model Impatient "Events that set off each other"
   Real x(start=0, fixed=true);

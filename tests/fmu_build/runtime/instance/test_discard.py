@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes as ct
+import re
 from collections.abc import Callable
 
 import numpy as np
@@ -62,7 +63,9 @@ def test_the_same_step_again_is_an_error(unit: Create) -> None:
     assert u.step(0.5) == OK
     statuses = [u.step(1.0), u.step(1.0)]
     assert statuses == [DISCARD, ERROR]
-    assert "has been discarded before" in u.messages()[-1]
+    reason, remedy, _ = u.messages("logStatusWarning")[-1].rsplit("; ", 2)
+    again = "the step from 0.5 s to 1.5 s has been discarded before, and nothing has changed since"
+    assert u.messages()[-1] == f"{again}: {reason}; {remedy}"
     assert u.step(1.25) == DISCARD
     assert u.set(u=-2.0) == OK
     assert u.step(1.25) == OK
@@ -101,14 +104,40 @@ def test_a_course_stays_open(unit: Create) -> None:
     np.testing.assert_allclose(rows, 1.0 - 0.0625 * np.arange(1, len(rows) + 1), rtol=1e-12)
 
 
-def test_too_many_steps(unit: Create) -> None:
-    u = started(unit, HARMONIC)
-    assert u.step(0.1) == OK
+# A jump outside of an event, an overflow in the second state, a slope without bound in the second state.
+JUMPING = Model("Jumping", (Variable("y"), Variable("x", -1.0, "m")),
+                "v->der_y = 1.0; v->der_x = v->x < 0.0 ? 1.0 : -1e30;", {})  # fmt: skip
+OVERFLOWING = Model("Overflowing", (Variable("y"), Variable("x", 1.0, "m")), "v->der_y = v->x; v->der_x = 1e307;",
+                    {(0, 1): "1.0"})  # fmt: skip
+LEAVING = Model("Leaving", (Variable("y"), Variable("x", 1.0, "m", 0.0)), "v->der_y = 1.0; v->der_x = -1.0;", {})
+
+
+@pytest.mark.parametrize(
+    ("model", "size", "reasons"),
+    [
+        (PUSHED, 2.0, ["the relation x > 0 is chattering at t = 1", "changes without end", "tanh"]),
+        (HARMONIC, 1e9, ["1000000 integrator steps have led from t = 0 s to", "the error of (x|y) allows no longer"]),
+        (JUMPING, 2.0, ["no step can be made from t = 1", "largest error is that of x, as where its derivative jumps"]),
+        (OVERFLOWING, 1e300, ["no step can be made from t = 0 s", "beyond all numbers leads the derivative of x"]),
+        (DERIVATIVE_ENDS, 2.0, ["from t = 1", "the derivative of y"]),
+        (SINGULAR, 2.0, ["(that|derivative) of x"]),
+        (LEAVING, 2.0, ["x = .* has fallen below its minimum of 0 m at t = "]),
+        (ROOT_OF_NEGATIVE, 2.0, ["root = NaN is not finite at t = 2 s"]),
+    ],
+    ids=lambda value: value.name if isinstance(value, Model) else "",
+)  # fmt: skip
+def test_a_discard_names_what_prevents_the_step(unit: Create, model: Model, size: float, reasons: list[str]) -> None:
+    """And leaves the instance where it was: from there it goes on."""
+    u = started(unit, model)
     before = u.state()
-    assert u.step(1e9) == DISCARD
+    assert u.step(size) == DISCARD
     assert u.state() == before
-    assert "integrator steps" in u.messages("logStatusWarning")[-1]
-    assert u.step(0.1) == OK
+    (message,) = u.messages("logStatusWarning")
+    print(message)
+    for reason in reasons:
+        assert re.search(reason, message)
+    assert message.endswith("; the instance is as before the step: a shorter one or other inputs may lead on")
+    assert model is OVERFLOWING or u.step(0.1) == OK
 
 
 def test_a_coupling_is_taken_back_too(unit: Create) -> None:
