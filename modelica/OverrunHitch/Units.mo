@@ -1,10 +1,10 @@
 within OverrunHitch;
 package Units "Physical quantities with their units and admissible ranges"
-  type Mass = Real(final quantity="Mass", final unit="kg", min=1) "Mass";
-  type MomentOfInertia = Real(final quantity="MomentOfInertia", final unit="kg.m2", min=1e-3) "Polar moment of inertia";
+  type Mass = Real(final quantity="Mass", final unit="kg", min=1, max=1e9) "Mass";
+  type MomentOfInertia = Real(final quantity="MomentOfInertia", final unit="kg.m2", min=1e-3, max=1e12) "Polar moment of inertia";
   type Density = Real(final quantity="Density", final unit="kg/m3") "Density";
-  type Area = Real(final quantity="Area", final unit="m2", min=0) "Area";
-  type Radius = Real(final quantity="Length", final unit="m", min=0.01) "Radius";
+  type Area = Real(final quantity="Area", final unit="m2", min=0, max=1e9) "Area";
+  type Radius = Real(final quantity="Length", final unit="m", min=0.01, max=1000) "Radius";
   type Position = Real(final quantity="Length", final unit="m", nominal=1) "Position along the road";
   type Length = Real(final quantity="Length", final unit="m") "Length";
   type Velocity = Real(final quantity="Velocity", final unit="m/s", displayUnit="km/h", nominal=1) "Velocity";
@@ -20,12 +20,12 @@ package Units "Physical quantities with their units and admissible ranges"
   type Torque = Real(final quantity="Torque", final unit="N.m") "Torque";
   type Impulse = Real(final quantity="Impulse", final unit="N.s", nominal=100) "Impulse";
   type Energy = Real(final quantity="Energy", final unit="J", nominal=1000) "Energy";
-  type Stiffness = Real(final quantity="TranslationalSpringConstant", final unit="N/m", min=0) "Stiffness";
-  type Damping = Real(final quantity="TranslationalDampingConstant", final unit="N.s/m", min=0) "Damper coefficient";
-  type SlipStiffness = Real(final quantity="Force", final unit="N", min=1) "Tyre force per unit slip";
-  type TorquePerLength = Real(final quantity="TorquePerLength", final unit="N.m/m", min=0) "Torque per unit length";
-  type Friction = Real(final quantity="CoefficientOfFriction", final unit="1", min=0.01) "Coefficient of friction";
-  type RollingResistance = Real(final quantity="RollingResistanceCoefficient", final unit="1", min=0) "Rolling resistance over load";
+  type Stiffness = Real(final quantity="TranslationalSpringConstant", final unit="N/m", min=0, max=1e9) "Stiffness";
+  type Damping = Real(final quantity="TranslationalDampingConstant", final unit="N.s/m", min=0, max=1e9) "Damper coefficient";
+  type SlipStiffness = Real(final quantity="Force", final unit="N", min=1, max=1e9) "Tyre force per unit slip";
+  type TorquePerLength = Real(final quantity="TorquePerLength", final unit="N.m/m", min=0, max=1e9) "Torque per unit length";
+  type Friction = Real(final quantity="CoefficientOfFriction", final unit="1", min=0.01, max=1e9) "Coefficient of friction";
+  type RollingResistance = Real(final quantity="RollingResistanceCoefficient", final unit="1", min=0, max=1e9) "Rolling resistance over load";
   type Grade = Real(final quantity="Grade", final unit="1") "Rise of the road over its horizontal run";
   type Share = Real(final quantity="Share", final unit="1", min=0, max=1) "Share";
   type Slip = Real(final quantity="Slip", final unit="1") "Longitudinal slip";
@@ -35,7 +35,9 @@ package Units "Physical quantities with their units and admissible ranges"
       Text(extent={{-80,60},{80,-60}}, textColor={0,60,120}, textString="SI")}),
     Documentation(info="<html>
 <p>SI units throughout. The minima of masses, inertias, radii and tyre stiffnesses stand for &quot;greater than zero&quot;:
-they keep a slip of the pen (a zero, a mass in tonnes) from passing as a model.</p>
+they keep a slip of the pen (a zero, a mass in tonnes) from passing as a model. The maxima are far beyond any vehicle:
+from there on double precision would lose what forces follow from, a slip or a compression, and results would be wrong
+without a word.</p>
 <p>A simulator's absolute tolerance follows the nominal values: 1 m, 1 m/s, and 3 rad/s because a wheel of a third of a
 metre then weighs an error of slip as it weighs one of speed.</p>
 </html>"));

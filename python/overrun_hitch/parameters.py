@@ -1,8 +1,8 @@
 """What a run is made of: Sharp's parameters, his nine cases and the step brakes of his figures.
 
-Every quantity is in SI units and carries its unit, its meaning and its lowest allowed value, so that tables, messages
-and files written elsewhere can take them from here, and so whose it is and what linear theory makes of it. The lowest
-values are those of the FMU.
+Every quantity is in SI units and carries its unit, its meaning and its range, so that tables, messages and files
+written elsewhere can take them from here, and so whose it is and what linear theory makes of it. The ranges are those
+of the FMU.
 
 R. S. Sharp, "Longitudinal Oscillations of Vehicle/Trailer Combinations Induced by Overrun Braking", Vehicle System
 Dynamics 11:1 (1982) 43-61, doi 10.1080/00423118208968687. Called "the paper" throughout the package.
@@ -112,49 +112,72 @@ def unknown(kind: str, name: str, names: Iterable[str]) -> str:
     return f"there is no {kind} {name!r:.40}; allowed: {listed}"
 
 
+# Far beyond any vehicle. From there on double precision loses what forces follow from, a slip or a compression, and a
+# run would be wrong without a word.
+MOST = 1e9  # in SI units
+MOST_INERTIA = 1e12  # kg.m2
+LONGEST = 1e4  # m
+WIDEST = 1e3  # m, of what is turned or displaced
+FASTEST = 1e3  # m/s
+
+
 class Parameters(Quantities):
     """The car, the trailer, the drawbar and the start, in the paper's symbols. The defaults are figure 8."""
 
-    M_c: float = quantity(1000.0, "kg", "mass of the car", "car", "exact", ge=1.0)
-    M_t: float = quantity(500.0, "kg", "mass of the trailer", "trailer", "exact", ge=1.0)
-    I_c: float = quantity(5.0, "kg.m2", "lumped wheel inertia of the car", "car", "exact", ge=0.001)
-    I_t: float = quantity(2.5, "kg.m2", "lumped wheel inertia of the trailer", "trailer", "exact", ge=0.001)
-    R_c: float = quantity(0.35, "m", "wheel radius of the car", "car", "exact", ge=0.01)
-    R_t: float = quantity(0.35, "m", "wheel radius of the trailer", "trailer", "exact", ge=0.01)
-    C_kc: float = quantity(400e3, "N", "braking force per unit slip of the car", "car", "exact", ge=1.0)
-    C_kt: float = quantity(200e3, "N", "braking force per unit slip of the trailer", "trailer", "exact", ge=1.0)
-    k: float = quantity(5480.0, "N/m", "drawbar stiffness in compression", "link", "exact", ge=0.0)
-    k_t: float = quantity(548e3, "N/m", "drawbar stiffness in tension", "link", "exact", ge=0.0)
-    C: float = quantity(500.0, "N.s/m", "drawbar damper coefficient", "link", "exact", ge=0.0)
-    r: float = quantity(
-        2.975 * 5480.0, "N.m/m", "trailer brake torque per unit of drawbar compression", "link", "exact", ge=0.0
+    M_c: float = quantity(1000.0, "kg", "mass of the car", "car", "exact", ge=1.0, le=MOST)
+    M_t: float = quantity(500.0, "kg", "mass of the trailer", "trailer", "exact", ge=1.0, le=MOST)
+    I_c: float = quantity(5.0, "kg.m2", "lumped wheel inertia of the car", "car", "exact", ge=0.001, le=MOST_INERTIA)
+    I_t: float = quantity(
+        2.5, "kg.m2", "lumped wheel inertia of the trailer", "trailer", "exact", ge=0.001, le=MOST_INERTIA
     )
-    eps: float = quantity(0.0, "m", "drawbar clearance", "trailer", "exact", ge=0.0)
+    R_c: float = quantity(0.35, "m", "wheel radius of the car", "car", "exact", ge=0.01, le=WIDEST)
+    R_t: float = quantity(0.35, "m", "wheel radius of the trailer", "trailer", "exact", ge=0.01, le=WIDEST)
+    C_kc: float = quantity(400e3, "N", "braking force per unit slip of the car", "car", "exact", ge=1.0, le=MOST)
+    C_kt: float = quantity(
+        200e3, "N", "braking force per unit slip of the trailer", "trailer", "exact", ge=1.0, le=MOST
+    )
+    k: float = quantity(5480.0, "N/m", "drawbar stiffness in compression", "link", "exact", ge=0.0, le=MOST)
+    k_t: float = quantity(548e3, "N/m", "drawbar stiffness in tension", "link", "exact", ge=0.0, le=MOST)
+    C: float = quantity(500.0, "N.s/m", "drawbar damper coefficient", "link", "exact", ge=0.0, le=MOST)
+    r: float = quantity(
+        2.975 * 5480.0,
+        "N.m/m",
+        "trailer brake torque per unit of drawbar compression",
+        "link",
+        "exact",
+        ge=0.0,
+        le=MOST,
+    )
+    eps: float = quantity(0.0, "m", "drawbar clearance", "trailer", "exact", ge=0.0, le=LONGEST)
     F_pull_max: float = quantity(
-        1e9, "N", "largest pull of the damper in a drawbar that is pushed in", "trailer", "small", ge=0.0
+        1e9, "N", "largest pull of the damper in a drawbar that is pushed in", "trailer", "small", ge=0.0, le=MOST
     )
     rebound: float = quantity(
-        1.0, "1", "damper coefficient while the drawbar springs back, over C", "trailer", "approximate", ge=0.0
+        1.0, "1", "damper coefficient while the drawbar springs back, over C", "trailer", "approximate", ge=0.0, le=MOST
     )
-    F_0: float = quantity(0.0, "N", "push up to which the drawbar gives by k_t alone", "link", "exact", ge=0.0)
+    F_0: float = quantity(0.0, "N", "push up to which the drawbar gives by k_t alone", "link", "exact", ge=0.0, le=MOST)
     x_2: float = quantity(1e3, "m", "drawbar compression beyond the clearance from which its stiffness is k_2",
-                          "trailer", "exact", ge=0.0)  # fmt: skip
-    k_2: float = quantity(5480.0, "N/m", "drawbar stiffness from x_2 on", "link", "exact", ge=0.0)
+                          "trailer", "exact", ge=0.0, le=LONGEST)  # fmt: skip
+    k_2: float = quantity(5480.0, "N/m", "drawbar stiffness from x_2 on", "link", "exact", ge=0.0, le=MOST)
     x_3: float = quantity(1e3, "m", "drawbar compression beyond the clearance from which its stiffness is k_3",
-                          "trailer", "exact", ge=0.0)  # fmt: skip
-    k_3: float = quantity(5480.0, "N/m", "drawbar stiffness from x_3 on", "link", "exact", ge=0.0)
-    travel: float = quantity(1e3, "m", "drawbar compression at which it meets the buffer", "trailer", "exact", ge=0.0)
-    k_buffer: float = quantity(548e3, "N/m", "drawbar stiffness from there on", "link", "exact", ge=0.0)
-    mu: float = quantity(1e9, "1", "friction between tyres and road", "both", "small", ge=0.01)
-    sigma: float = quantity(0.0, "m", "relaxation length of the tyres", "both", "exact", ge=0.0)
-    CdA_c: float = quantity(0.0, "m2", "drag area of the car", "car", "neutral", ge=0.0)
-    CdA_t: float = quantity(0.0, "m2", "drag area of the trailer", "trailer", "neutral", ge=0.0)
-    C_rr: float = quantity(0.0, "1", "rolling resistance over load", "both", "neutral", ge=0.0)
+                          "trailer", "exact", ge=0.0, le=LONGEST)  # fmt: skip
+    k_3: float = quantity(5480.0, "N/m", "drawbar stiffness from x_3 on", "link", "exact", ge=0.0, le=MOST)
+    travel: float = quantity(
+        1e3, "m", "drawbar compression at which it meets the buffer", "trailer", "exact", ge=0.0, le=LONGEST
+    )
+    k_buffer: float = quantity(548e3, "N/m", "drawbar stiffness from there on", "link", "exact", ge=0.0, le=MOST)
+    mu: float = quantity(1e9, "1", "friction between tyres and road", "both", "small", ge=0.01, le=MOST)
+    sigma: float = quantity(0.0, "m", "relaxation length of the tyres", "both", "exact", ge=0.0, le=LONGEST)
+    CdA_c: float = quantity(0.0, "m2", "drag area of the car", "car", "neutral", ge=0.0, le=MOST)
+    CdA_t: float = quantity(0.0, "m2", "drag area of the trailer", "trailer", "neutral", ge=0.0, le=MOST)
+    C_rr: float = quantity(0.0, "1", "rolling resistance over load", "both", "neutral", ge=0.0, le=MOST)
     reverse_braking: float = quantity(
         1.0, "1", "share of the trailer's brake torque that acts backward", "trailer", "outside", ge=0.0, le=1.0
     )
-    V_0: float = quantity(40.0, "m/s", "speed at the start", "both", "outside")
-    compression_start: float = quantity(0.0, "m", "drawbar compression at the start", "trailer", "outside")
+    V_0: float = quantity(40.0, "m/s", "speed at the start", "both", "outside", ge=-FASTEST, le=FASTEST)
+    compression_start: float = quantity(
+        0.0, "m", "drawbar compression at the start", "trailer", "outside", ge=-WIDEST, le=WIDEST
+    )
 
     @property
     def gives_from(self) -> float:

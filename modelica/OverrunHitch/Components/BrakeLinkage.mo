@@ -1,7 +1,7 @@
 within OverrunHitch.Components;
 model BrakeLinkage "Linkage that applies the trailer's brakes as the drawbar is pushed in"
   parameter Units.TorquePerLength r = 2.975*5480 "Brake torque per unit of drawbar compression beyond the clearance";
-  parameter Units.Length eps(min=0) = 0 "Compression at which it begins to act: clearance (backlash), and what a threshold takes";
+  parameter Units.Length eps(min=0, max=10000) = 0 "Compression at which it begins to act: clearance (backlash), and what a threshold takes";
   Interfaces.LengthInput compression "Drawbar compression" annotation(Placement(transformation(extent={{-120,-20},{-80,20}})));
   Interfaces.TorqueOutput brake_torque "Torque that the trailer's brakes can hold, on its lumped wheels" annotation(Placement(transformation(extent={{90,-10},{110,10}})));
 equation

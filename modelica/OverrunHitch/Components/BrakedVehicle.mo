@@ -4,9 +4,9 @@ model BrakedVehicle "Rigid body on one lumped braked wheel with a slip tyre"
   parameter Units.MomentOfInertia I = 5 "Polar moment of inertia of the lumped wheels";
   parameter Units.Radius R = 0.35 "Wheel radius";
   parameter Units.SlipStiffness C_k = 400000 "Tyre force per unit slip";
-  parameter Units.Velocity V_0 = 40 "Speed at the start";
+  parameter Units.Velocity V_0(min=-1000, max=1000) = 40 "Speed at the start";
   parameter Units.Friction mu = 1e9 "Friction between tyres and road";
-  parameter Units.Length sigma(min=0) = 0 "Relaxation length of the tyres";
+  parameter Units.Length sigma(min=0, max=10000) = 0 "Relaxation length of the tyres";
   parameter Units.Area CdA = 0 "Drag area";
   parameter Units.RollingResistance C_rr = 0 "Rolling resistance over load";
   parameter Units.Share reverse_braking = 1 "Share of the brake torque that acts backward";

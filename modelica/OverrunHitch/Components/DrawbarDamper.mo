@@ -2,10 +2,10 @@ within OverrunHitch.Components;
 model DrawbarDamper "Force of a drawbar's damper, with a coefficient for each direction"
   extends Interfaces.PartialDrawbarForce;
   parameter Units.Damping C = 500 "Damper coefficient";
-  parameter Real rebound(final unit="1", min=0) = 1 "Damper coefficient while the drawbar springs back, over C";
+  parameter Real rebound(final unit="1", min=0, max=1e9) = 1 "Damper coefficient while the drawbar springs back, over C";
 protected
   parameter Units.Slowness sense = noEvent(if abs(rebound - 1) > 0 then 0.01 else 0) "0: a damper with one coefficient; else so small that less than 1e-10 m/s, which is rounding, has no direction";
-  parameter Units.Damping C_rebound = rebound*C "Damper coefficient while the drawbar springs back";
+  parameter Units.Damping C_rebound(max=1e18) = rebound*C "Damper coefficient while the drawbar springs back";
 equation
   F = if sense*v_rel < 0 then C_rebound*v_rel else C*v_rel "No event where both are the same";
   annotation(

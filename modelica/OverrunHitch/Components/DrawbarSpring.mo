@@ -3,13 +3,13 @@ model DrawbarSpring "Force of a drawbar's springs over its compression: linear i
   extends Interfaces.PartialDrawbarForce;
   parameter Units.Stiffness k = 5480 "Stiffness in compression";
   parameter Units.Stiffness k_t = 548000 "Stiffness in tension";
-  parameter Units.Length eps(min=0) = 0 "Clearance (backlash)";
-  parameter Units.Force F_0(min=0) = 0 "Threshold: push up to which the spring, clamped, does not give";
-  parameter Units.Length x_2(min=0) = 1000 "Compression beyond the clearance from which the stiffness is k_2";
+  parameter Units.Length eps(min=0, max=10000) = 0 "Clearance (backlash)";
+  parameter Units.Force F_0(min=0, max=1e9) = 0 "Threshold: push up to which the spring, clamped, does not give";
+  parameter Units.Length x_2(min=0, max=10000) = 1000 "Compression beyond the clearance from which the stiffness is k_2";
   parameter Units.Stiffness k_2 = 5480 "Stiffness from x_2 on";
-  parameter Units.Length x_3(min=0) = 1000 "Compression beyond the clearance from which the stiffness is k_3";
+  parameter Units.Length x_3(min=0, max=10000) = 1000 "Compression beyond the clearance from which the stiffness is k_3";
   parameter Units.Stiffness k_3 = 5480 "Stiffness from x_3 on";
-  parameter Units.Length travel(min=0) = 1000 "Compression at which the drawbar meets its buffer";
+  parameter Units.Length travel(min=0, max=10000) = 1000 "Compression at which the drawbar meets its buffer";
   parameter Units.Stiffness k_buffer = 548000 "Stiffness from there on";
   final parameter Units.Length s_1 = eps + noEvent(if F_0 > 0 then F_0/k_t else 0) "Compression at which the spring begins to give";
 protected

@@ -1,8 +1,8 @@
 within OverrunHitch.Components;
 model PullLimit "Limit of what a drawbar may pull while it is pushed in, and push while it is not"
   extends Interfaces.PartialDrawbarForce;
-  parameter Units.Force F_pull_max(min=0) = 1e9 "Largest force of the damper against the contact: 0 for a spring that never pulls";
-  parameter Units.Length eps(min=0) = 0 "Clearance (backlash)";
+  parameter Units.Force F_pull_max(min=0, max=1e9) = 1e9 "Largest force of the damper against the contact: 0 for a spring that never pulls";
+  parameter Units.Length eps(min=0, max=10000) = 0 "Clearance (backlash)";
   Interfaces.ForceInput F_free "Force of springs and damper, without limit" annotation(Placement(transformation(extent={{-120,-20},{-80,20}})));
 equation
   F = if compression >= 0 and F_free < -F_pull_max then -F_pull_max

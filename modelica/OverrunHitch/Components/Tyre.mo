@@ -5,10 +5,11 @@ model Tyre "Tyre whose force follows from longitudinal slip, limited by friction
   parameter Units.Mass M = 1000 "Mass that loads the tyre";
   parameter Units.Friction mu = 1e9 "Friction between tyre and road: largest force over load";
   parameter Units.RollingResistance C_rr = 0 "Rolling resistance over load";
-  parameter Units.Length sigma(min=0) = 0 "Relaxation length, over which the force follows the slip; 0: at once";
+  parameter Units.Length sigma(min=0, max=10000) = 0 "Relaxation length, over which the force follows the slip; 0: at once";
   parameter Units.Velocity v_low = 0.5 "Below this speed the tyre's deflection counts instead of its slip";
   parameter Real zeta(final unit="1") = 0.5 "Damping ratio of the mass on the tyre that stands";
   constant Units.Length l_0 = 0.3 "C_k over the stiffness of the tyre at rest, where sigma does not tell it";
+  constant Units.Length l_least = 1e-6 "A relaxation length below counts as this: what lags by nanometres is stiff beyond double precision at rest";
   constant Real C_x(final unit="1") = 1.685 "Shape factor of the magic formula: p_Cx1 of Pacejka's 205/60R15";
   constant Real E_x(final unit="1") = 0.344 "Curvature factor of the magic formula: p_Ex1 of Pacejka's 205/60R15";
   constant Real X_peak(final unit="1") = 1.5329258834444335 "Argument at the peak: C_x*atan(X - E_x*(X - atan(X))) = pi/2";
@@ -29,7 +30,7 @@ model Tyre "Tyre whose force follows from longitudinal slip, limited by friction
   Real X(final unit="1") "Argument of the magic formula";
   Units.Force F "Tyre force, positive retarding";
 protected
-  parameter Units.Length l = noEvent(if sigma > 0 then sigma else l_0) "C_k over the stiffness of the tyre at rest";
+  parameter Units.Length l = noEvent(if sigma > 0 then max(sigma, l_least) else l_0) "C_k over the stiffness of the tyre at rest";
   parameter Real lag(final unit="1") = noEvent(if sigma > 0 then 1 else 0) "Share of the slip that follows with a lag";
   parameter Units.Slowness d = 2*zeta*sqrt(M/(C_k*l)) "Slip per slip speed that gives the damping zeta";
 equation

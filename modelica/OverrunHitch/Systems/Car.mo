@@ -5,10 +5,10 @@ model Car "Car in front of somebody else's trailer (Sharp 1982)"
   parameter Units.Radius R_c = 0.35 "Wheel radius of the car";
   parameter Units.SlipStiffness C_kc = 400000 "Tyre force per unit slip, car";
   parameter Units.Friction mu = 1e9 "Friction between tyres and road; the paper's has no limit";
-  parameter Units.Length sigma(min=0) = 0 "Relaxation length of the tyres; the paper\'s have none";
+  parameter Units.Length sigma(min=0, max=10000) = 0 "Relaxation length of the tyres; the paper\'s have none";
   parameter Units.Area CdA_c = 0 "Drag area of the car (drag coefficient times frontal area); the paper's has none";
   parameter Units.RollingResistance C_rr = 0 "Rolling resistance over load; the paper's has none";
-  parameter Units.Velocity V_0 = 40 "Speed at the start";
+  parameter Units.Velocity V_0(min=-1000, max=1000) = 40 "Speed at the start";
   Interfaces.TorqueInput brake_torque(min=0) "Torque that the car's brakes can hold, on its lumped wheels: friction, against the rolling" annotation(Placement(transformation(extent={{-20,80},{20,120}}, rotation=-90)));
   Interfaces.ForceInput F_hitch "Hitch force on the car, positive forward: a pushing trailer gives a positive value" annotation(Placement(transformation(extent={{-140,-20},{-100,20}})));
   Interfaces.GradeInput grade "Road grade, rise over horizontal run, positive uphill" annotation(Placement(transformation(extent={{-140,60},{-100,100}})));

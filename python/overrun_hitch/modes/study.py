@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from overrun_hitch.parameters import HitchError, Parameters, Quantities, quantity
+from overrun_hitch.parameters import FASTEST, HitchError, Parameters, Quantities, quantity
 from overrun_hitch.theory.boundary import critical_damping
 from overrun_hitch.theory.linear import check_known, compression_matrix, shunting_mode
 from overrun_hitch.theory.steady import braking_at, steady
@@ -22,9 +22,9 @@ ROUNDING = 1e-12  # of the greatest entry of the matrix: below it an eigenvalue 
 
 
 class Speed(Quantities):
-    """A speed to linearise about; the lowest is that of the FMU."""
+    """A speed to linearise about; the highest is that of the FMU."""
 
-    V: float = quantity(20.0, "m/s", "speed", ge=0.1)
+    V: float = quantity(20.0, "m/s", "speed", ge=0.1, le=FASTEST)
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,6 @@ from scipy.optimize import brentq
 from overrun_hitch.parameters import HitchError, Parameters
 from overrun_hitch.theory.linear import shunting_mode
 
-DOUBLINGS = 200  # of the upper bound, at most; twice the estimate is enough for the paper's cases
-
 
 def critical_damping(parameters: Parameters, V: float) -> float:
     """The damper coefficient (N.s/m) below which the shunting mode grows and above which it decays, at V (m/s).
@@ -23,12 +21,13 @@ def critical_damping(parameters: Parameters, V: float) -> float:
 
     if growth(0.0) <= 0.0:
         return 0.0
-    upper = max(2.0 * light_damping_estimate(parameters, V), 1e-3)
-    for _ in range(DOUBLINGS):
-        if growth(upper) < 0.0:
-            return float(brentq(growth, 0.0, upper, xtol=1e-12 * upper, rtol=1e-12))
-        upper *= 2.0
-    raise HitchError(f"no damper up to C = {upper:g} N.s/m holds the shunting mode at V = {V:g} m/s")
+    most = Parameters.limits("C")[1]
+    upper = min(max(2.0 * light_damping_estimate(parameters, V), 1e-3), most)
+    while growth(upper) >= 0.0:
+        if upper == most:
+            raise HitchError(f"no damper up to C = {most:g} N.s/m holds the shunting mode at V = {V:g} m/s")
+        upper = min(2.0 * upper, most)
+    return float(brentq(growth, 0.0, upper, xtol=1e-12 * upper, rtol=1e-12))
 
 
 def light_damping_estimate(parameters: Parameters, V: float) -> float:

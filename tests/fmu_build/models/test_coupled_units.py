@@ -183,6 +183,23 @@ def test_derivatives_of_the_replaced_outputs_are_those_of_the_force(start: Calla
     assert derivatives == pytest.approx([-500.0, -500.0, -500.0, 0.0])
 
 
+def test_forces_depend_on_the_speed_now_until_the_first_step(start: Callable[..., Unit]) -> None:
+    """Why `dependencies` lists v_car for all three, and no other output of Car than a_car depends on the force now."""
+    trailer, car = start("Trailer"), start("Car")
+    slopes = {}
+    for stepped in (False, True):
+        before = trailer.get(*FORCES)
+        trailer.set(v_car=trailer.get("v_car")[0] + 0.5)
+        slopes[stepped] = (trailer.get(*FORCES) - before) / 0.5
+        trailer.slave.doStep(0.01 * stepped, 0.01)
+    assert slopes[False] == pytest.approx([-500.0, -500.0, -500.0])  # the damper's
+    assert slopes[True] == pytest.approx([-500.0, 0.0, 0.0])
+    at_rest = car.outputs()
+    car.set(F_hitch=100.0)
+    outputs = [v.name for v in car.description.modelVariables if v.causality == "output"]
+    assert {name for name, new, old in zip(outputs, car.outputs(), at_rest, strict=True) if new != old} == {"a_car"}
+
+
 @pytest.mark.parametrize("version", VERSIONS)
 def test_model_exchange_has_no_coupling(fmus: Fmus, version: int) -> None:
     result = fmpy.simulate_fmu(

@@ -120,6 +120,24 @@ def test_steps_that_do_not_divide_an_exchange(unit: Create, multiples: list[int]
     assert errors[0] < 2.0 * errors[1] + 1.5 * impulse
 
 
+@pytest.mark.parametrize("ratio", [2.0, 2.5, 4.0, 10.0])
+@pytest.mark.parametrize("between", [3, 9])
+def test_how_long_an_exchange_may_be(unit: Create, between: int, ratio: float) -> None:
+    """One in several is longer than the others. No call says that it goes on: a car that stands still makes the same
+    ones. So it is told by its length: twice the longest of the last ones, which each further one forgets by a tenth."""
+    short, n = 0.005, 600
+    pattern = [short] * between + [short * ratio]
+    sizes = pattern * (n // round(between + ratio))
+    several = [round(4 * size / short) for size in sizes]
+    period = sum(pattern)
+    rates = [growth(pair(unit, sizes, steps)[:: len(pattern), 0], period) for steps in (several, [1] * len(sizes))]
+    is_told = ratio <= 2.0 * max(1.0, ratio * 0.9**between)
+    off = abs(rates[0] - rates[1])
+    print(f"{ratio} times as long, once after {between}: off by {off:.5f} 1/s, {'told' if is_told else 'not told'}")
+    assert (off < 2e-5) == is_told
+    assert off < 0.03
+
+
 @pytest.mark.parametrize("steps", STEPS)
 def test_what_is_lost_before_the_length_of_an_exchange_is_known(unit: Create, steps: int | str) -> None:
     """The first change of u, by the first exchange: u is taken to have jumped at its end."""
