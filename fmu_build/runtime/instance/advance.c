@@ -10,14 +10,6 @@
 /* More steps than this between two communication points are taken for a run without end. */
 enum { MAX_INTEGRATOR_STEPS = 1000000 };
 
-/* The steps since the communication point, to tell why they are so many. Events of relations are not: these would
- * have been taken for chattering before. */
-typedef struct {
-    double start;
-    int steps;
-    int time_events; /* that have ended steps */
-} Tally;
-
 static void log_events(const Instance *instance, const Point *arrival)
 {
     for (int i = 0; i < N_RELATIONS && instance->logs[LOG_EVENT]; i++) {
@@ -99,13 +91,12 @@ static bool set_out(Instance *instance, double target, double next, Message *why
 }
 
 /* The end of the course has been reached: an event may lie there. */
-static bool arrive(Instance *instance, double next, bool events_wait, Tally *tally, Message *why)
+static bool arrive(Instance *instance, double next, bool events_wait, Message *why)
 {
     State *s = &instance->state;
     const Point *arrival = &s->course.arrival;
     const bool event = arrival->event || arrival->time >= next;
     s->course.open = false;
-    tally->time_events += event && !arrival->event;
     if (arrival->event) {
         log_events(instance, arrival);
         if (events_too_dense(&s->density, arrival->time, s->holds, arrival->holds, why)) {
@@ -117,7 +108,7 @@ static bool arrive(Instance *instance, double next, bool events_wait, Tally *tal
 }
 
 /* Go on along the course, at most to target. */
-static bool advance(Instance *instance, double target, bool events_wait, Tally *tally, Message *why)
+static bool advance(Instance *instance, double target, bool events_wait, Message *why)
 {
     State *s = &instance->state;
     const double next = discrete_next_time(s);
@@ -130,17 +121,20 @@ static bool advance(Instance *instance, double target, bool events_wait, Tally *
         advance_follow(s, end);
         return discrete_check(instance, why);
     }
-    return arrive(instance, next, events_wait, tally, why);
+    return arrive(instance, next, events_wait, why);
 }
 
-static bool explain_number(const Instance *instance, const Tally *tally, Message *why)
+/* Either the error keeps steps short, or they could be longer and times of events do; events of relations would have
+ * been taken for chattering before. */
+static bool explain_number(const Instance *instance, double start, Message *why)
 {
     const State *s = &instance->state;
-    message_write(why, "%d integrator steps have led from t = %s to t = %s only", tally->steps,
-                  quantity(tally->start, "s").text, quantity(s->v.time, "s").text);
-    if (tally->time_events > tally->steps / 4) {
+    const double mean = (s->v.time - start) / MAX_INTEGRATOR_STEPS;
+    message_write(why, "%d integrator steps have led from t = %s to t = %s only", MAX_INTEGRATOR_STEPS,
+                  quantity(start, "s").text, quantity(s->v.time, "s").text);
+    if (N_STATES == 0 || s->integrator.length > 4.0 * mean) {
         discrete_explain_times(s, why);
-    } else if (N_STATES > 0) {
+    } else {
         message_append(why, ": the error of %s allows no longer ones; a larger tolerance does",
                        variable_info[FIRST_STATE + integrator_worst_state(&instance->rodas, s->tolerance)].name);
     }
@@ -151,13 +145,13 @@ bool advance_to(Instance *instance, double target, const StepOptions *options, M
 {
     State *s = &instance->state;
     const bool events_wait = s->use == CO_SIMULATION_WITH_EVENTS && options->may_return_early;
-    Tally tally = {.start = s->v.time};
-    for (; s->v.time < target && !s->event_waits && !discrete_has_ended(s); tally.steps++) {
+    const double begin = s->v.time;
+    for (int steps = 0; s->v.time < target && !s->event_waits && !discrete_has_ended(s); steps++) {
         const double start = s->v.time;
-        if (tally.steps == MAX_INTEGRATOR_STEPS) {
-            return explain_number(instance, &tally, why);
+        if (steps == MAX_INTEGRATOR_STEPS) {
+            return explain_number(instance, begin, why);
         }
-        if (!advance(instance, target, events_wait, &tally, why)) {
+        if (!advance(instance, target, events_wait, why)) {
             return false;
         }
         if (options->intermediate != NULL && s->v.time > start) {
