@@ -30,8 +30,9 @@ def find_aliases(equations: Iterable[Equation], variables: Mapping[str, Variable
     def rank(name: str) -> tuple[bool, int, bool, bool, int, int]:
         v = variables[name]
         is_free = v.binding is None or not v.binding.is_Symbol
+        is_open = v.variability == "parameter" or not v.fixed  # parameters are fixed by default: it says nothing
         dots = name.count(".")
-        return (v.causality != "input", -v.state_select, not v.fixed, not is_free, dots, order.index(name))
+        return (v.causality != "input", -v.state_select, is_open, not is_free, dots, order.index(name))
 
     roots = {name: min(members, key=rank) for name, members in sets.items()}
     return {name: roots[name] for name in order if name in roots and roots[name] != name}

@@ -1,12 +1,13 @@
 """The values at the start: initial equations, and start values where they leave something open.
 
 With initial equations the states, and parameters with fixed=false, are unknowns, together with all that is computed
-from them. Fixed start values are equations too. Where that is not enough, other start values are taken, in the order of
-the declarations, wherever they determine something.
+from them, parameters bound to such parameters too. Fixed start values are equations too. Where that is not enough,
+other start values are taken, in the order of the declarations, wherever they determine something.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import networkx as nx
@@ -23,22 +24,37 @@ def initialize(system: EquationSystem) -> EquationSystem:
     """The system with as many initial equations as unknowns at the start; none where start values say it all."""
     variables = {v.name: v for v in system.model.variables}
     free = tuple(v.name for v in variables.values() if is_free(v) and v.name not in system.aliases)
+    following = _following(free, system.bound_parameters)
     discrete, continuous = _split(system, variables)
     before = {a.target: a for a in (*system.starts_before, *discrete.values())}
-    system = replace(system, starts_before=tuple(before.values()), free_parameters=free)
+    system = replace(
+        system,
+        starts_before=tuple(before.values()),
+        free_parameters=(*free, *following),
+        bound_parameters={n: e for n, e in system.bound_parameters.items() if n not in following},
+    )
     if not continuous and not free and not system.invariants:
         return replace(system, initial_equations=())
-    unknowns = (*system.unknowns, *system.states, *free)
+    unknowns = (*system.unknowns, *system.states, *system.free_parameters)
     fixed = [_start(n, system, variables) for n in system.states if variables[n].fixed]
     open_ = [n for n in (*system.states, *free) if not variables[n].fixed]
     open_.sort(key=lambda n: variables[n].start is None)  # a declared start value is a better guess than zero
-    required = [*system.equations, *continuous, *fixed]
+    required = [*system.equations, *following.values(), *continuous, *fixed]
     if system.invariants:
         open_ = free_coordinates(open_, [*required, *system.invariants], unknowns, variables)
     guesses = [_start(name, system, variables) for name in open_]
     equations = _complete(required, [*system.invariants, *guesses], unknowns)
     _refuse_contradictions([e for e in system.invariants if e not in equations], system)
     return replace(system, initial_equations=tuple(equations), initial_unknowns=unknowns)
+
+
+def _following(free: tuple[str, ...], bound: Mapping[str, Equation]) -> dict[str, Equation]:
+    """The parameters bound to expressions of those that initial equations determine, directly or not."""
+    edges = [(s.name, name) for name, equation in bound.items() for s in equation.residual.free_symbols]
+    graph = nx.DiGraph(edges)
+    graph.add_nodes_from(free)
+    reached = set().union(*(nx.descendants(graph, name) for name in free))
+    return {name: equation for name, equation in bound.items() if name in reached}
 
 
 def _refuse_contradictions(dropped: list[Equation], system: EquationSystem) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 import sympy
 
 from ..errors import BuildError
-from ..ir.equations import EnumerationType, Variable
+from ..ir.equations import EnumerationType, Variable, is_free
 from .clauses import assigned_names
 from .components import element_names, spread
 from .event_expressions import Declared, EventReader, enumeration_types
@@ -95,7 +95,7 @@ def variables_of(node: Node, flat: Node, reader: EventReader, kinds: dict[str, E
         )
         for element, start, is_fixed, binding, lowest, highest, nominal in attributes
     ]
-    return [_with_value(v) if v.causality == "input" and v.binding is not None else v for v in variables]
+    return [_from_outside(v, reader) for v in variables]
 
 
 def _whole(node: Node, flat: Node, reader: EventReader, kinds: dict[str, EnumerationType]) -> Variable:
@@ -144,11 +144,17 @@ def _numbers(key: str, node: Node, whole: Variable, reader: EventReader) -> list
     return [None if value is None else _number(value, key, whole, reader) for value in values]
 
 
-def _with_value(variable: Variable) -> Variable:
-    """An input that is declared with a number starts from it; one with another expression is none of the unit's."""
-    if variable.binding is not None and variable.binding.is_number:
-        return replace(variable, start=variable.binding, binding=None)
-    return replace(variable, causality="local")
+def _from_outside(variable: Variable, reader: EventReader) -> Variable:
+    """The variable; what is set from outside starts from a number. An input that is declared with one starts from that;
+    one with another expression is none of the unit's."""
+    if variable.causality == "input" and variable.binding is not None:
+        if not variable.binding.is_number:
+            return replace(variable, causality="local")
+        variable = replace(variable, start=variable.binding, binding=None)
+    is_parameter = variable.variability == "parameter" and variable.binding is None and not is_free(variable)
+    if variable.start is None or not (variable.causality == "input" or is_parameter):
+        return variable
+    return replace(variable, start=sympy.sympify(_number(variable.start, "start", variable, reader)))
 
 
 def _spans(node: Any) -> list[dict[str, int]]:
@@ -159,9 +165,7 @@ def _spans(node: Any) -> list[dict[str, int]]:
 
 def _has_no_start(node: Node) -> bool:
     """Whether no start value is declared: rumoca then puts in a zero that stands where the component does."""
-    literal = node["start"] and node["start"].get("Literal")
-    place = node["component_ref"]["span"]
-    return literal is None or (literal["span"]["start"], literal["span"]["end"]) == (place["start"], place["end"])
+    return node["start"] is None or _spans(node["start"]) == [node["component_ref"]["span"]]
 
 
 def _guess(start: sympy.Expr | None, reader: EventReader) -> float:
