@@ -9,14 +9,14 @@ from dataclasses import replace
 import sympy
 
 from ..errors import BuildError
-from ..ir.equations import Assignment, Equation, Relation, Variable, is_free
+from ..ir.equations import Assignment, Equation, Relation, Variable, is_free, symbols_of
 from ..ir.events import DiscreteEquations
 from ..ir.models import EquationSystem, FlatModel
 from ..ir.substitution import substitute
 from ..ir.symbols import der, derivative_of, holds, pre, symbol
 from .aliases import Names, constants_and_roots, find_aliases, with_starts_of_aliases
 from .index_reduction import Reduced, reduce_index
-from .states import choose_states, symbols_of
+from .states import choose_states
 
 
 def derive(model: FlatModel) -> EquationSystem:

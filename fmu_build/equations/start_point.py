@@ -7,13 +7,15 @@ level, ``x^2 + y^2 = L^2`` gives x from y, and not y from x.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
+from graphlib import CycleError, TopologicalSorter
 
 import numpy as np
 import sympy
 from numpy.typing import NDArray
 from scipy.linalg import qr
 
-from ..ir.equations import Equation, Variable
+from ..ir.equations import Equation, Variable, symbols_of
 from ..ir.symbols import TIME, symbol
 
 TOLERANCE = 1e-6  # of equations that start values should meet
@@ -23,19 +25,15 @@ UNDECLARED = 0.1  # weight of a state without a start value: such a one should r
 
 def value_at_start(expression: sympy.Expr, variables: Iterable[Variable]) -> float | None:
     """The value with all start values and parameters as declared; None where it contains anything else."""
-    value = expression.xreplace(_point(variables))
+    value = expression.xreplace(_point(expression.free_symbols, {v.name: v for v in variables}))
     return float(value) if value.is_number and value.is_finite else None
 
 
 def starts_fit(equations: Sequence[Equation], states: Iterable[str], variables: Mapping[str, Variable]) -> bool:
     """Whether the equations, linear in what is no state, have a solution with the start values of the states as they
     are, as where all are zero."""
-    kept = {symbol(name) for name in states} | {
-        symbol(v.name) for v in variables.values() if v.variability == "parameter"
-    }
-    point = {s: value for s, value in _point(variables.values()).items() if s in kept} | {
-        symbol(TIME): sympy.Integer(0)
-    }
+    kept = {*states, *(name for name, v in variables.items() if v.variability == "parameter")}
+    point = _point((s for s in symbols_of(equations) if s.name in kept), variables) | {symbol(TIME): sympy.Integer(0)}
     residuals = [equation.residual.xreplace(point) for equation in equations]
     unknowns = sorted(set().union(*(r.free_symbols for r in residuals)), key=str)
     slopes = [[r.diff(s) for s in unknowns] for r in residuals]
@@ -52,7 +50,7 @@ def free_coordinates(
     states: Sequence[str], equations: Sequence[Equation], unknowns: Sequence[str], variables: Mapping[str, Variable]
 ) -> list[str]:
     """The states, first those that the equations leave free at the start, best determined by their slopes there."""
-    slopes = _slopes(equations, unknowns, _point(variables.values()))
+    slopes = _slopes(equations, unknowns, _point(symbols_of(equations), variables))
     _, singular_values, directions = np.linalg.svd(slopes)
     rank = int((singular_values > RANK * singular_values.max(initial=0.0)).sum())
     weights = [1.0 if variables[name].start is not None else UNDECLARED for name in states]
@@ -76,17 +74,38 @@ def _slopes(
     return slopes
 
 
-def _point(variables: Iterable[Variable]) -> dict[sympy.Symbol, sympy.Expr]:
-    """Start values of variables, and values of parameters."""
+def _point(symbols: Iterable[sympy.Symbol], variables: Mapping[str, Variable]) -> dict[sympy.Symbol, sympy.Expr]:
+    """Start values of variables and values of parameters, as far as they follow as numbers.
+
+    Numbers alone are put in, in the order in which they follow: nested conditional expressions, put into each other as
+    they are, grow exponentially.
+    """
+    declared: dict[sympy.Symbol, sympy.Expr] = {}
+    waiting = list(symbols)
+    while waiting:
+        s = waiting.pop()
+        value = None if s in declared else _declared(variables.get(s.name))
+        if value is not None:
+            declared[s] = value
+            waiting += value.free_symbols
+    order = TopologicalSorter({s: value.free_symbols for s, value in declared.items()})
     point: dict[sympy.Symbol, sympy.Expr] = {}
-    for v in variables:
-        if v.variability == "continuous":
-            point[symbol(v.name)] = sympy.Float(v.guess)
-        elif v.variability == "parameter":
-            value = v.start if v.binding is None else v.binding
-            point[symbol(v.name)] = sympy.Integer(0) if value is None else value
-    for _ in point:  # parameters that depend on others
-        if all(value.is_number for value in point.values()):
-            break
-        point = {name: value.xreplace(point) for name, value in point.items()}
+    with suppress(CycleError):  # what is outside the cycle follows all the same
+        order.prepare()
+    while order.is_active():
+        for s in order.get_ready():
+            value = declared[s].xreplace(point) if s in declared else s
+            if value.is_number:
+                point[s] = value
+            order.done(s)
     return point
+
+
+def _declared(variable: Variable | None) -> sympy.Expr | None:
+    """What a declaration says of the value at the start."""
+    if variable is None or variable.variability not in {"continuous", "parameter"}:
+        return None
+    if variable.variability == "continuous":
+        return sympy.Float(variable.guess)
+    value = variable.start if variable.binding is None else variable.binding
+    return sympy.Integer(0) if value is None else value

@@ -8,20 +8,15 @@ computed is passed on to one whose start value is free. (index_reduction.py find
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 import sympy
 
 from ..errors import BuildError
-from ..ir.equations import Equation, Variable
+from ..ir.equations import Equation, Variable, symbols_of
 from ..ir.symbols import der, symbol
 from .constraints import follower, least_wanted_first, total_derivative
 from .start_point import starts_fit
-
-
-def symbols_of(equations: Iterable[Equation]) -> set[sympy.Symbol]:
-    """All that occurs in the equations."""
-    return set().union(*(e.residual.free_symbols for e in equations))
 
 
 def choose_states(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import sympy
@@ -50,6 +51,11 @@ class Equation:
 
     residual: sympy.Expr
     origin: str
+
+
+def symbols_of(equations: Iterable[Equation]) -> set[sympy.Symbol]:
+    """All that occurs in the equations."""
+    return set().union(*(e.residual.free_symbols for e in equations))
 
 
 @dataclass(frozen=True)
