@@ -11,9 +11,9 @@ import pytest
 import rumoca
 from fmpy.fmi2 import FMU2Model
 
-from overrun_hitch.experiments.step_brake import step_brake
 from overrun_hitch.parameters import DATUM, Scenario
 from overrun_hitch.results import VARIABLES
+from tests.runs import step_brake
 
 EPS = 0.1
 COMPRESSIONS = [-0.02, -1e-6, 0.0, 1e-6, 0.05, EPS, EPS + 1e-6, 0.12, 0.3]  # m

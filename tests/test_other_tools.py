@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 import rumoca
 
-from overrun_hitch.experiments.step_brake import step_brake
 from overrun_hitch.parameters import FIGURES, Parameters
 from overrun_hitch.results import VARIABLES
+from tests.runs import step_brake
 
 OPENMODELICA = Path(__file__).parent / "oracles" / "openmodelica"
 # Distance from SciPy's Radau at rtol 1e-11, from the README beside the files: car, trailer (m/s), compression (m).

@@ -6,12 +6,15 @@ import csv
 import re
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from overrun_hitch.parameters import HitchError, Parameters, Scenario
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Floats = NDArray[np.float64]
 
@@ -35,6 +38,8 @@ def dataset(time: Floats, columns: Mapping[str, Floats], attributes: Mapping[str
     `attributes` of a run are the parameters by name in SI units, scenario, brake_torque (N.m), duration (s), and what
     made it: fmu, relative_tolerance, communication_step (s), versions.
     """
+    import xarray as xr  # here, because it takes a second, and who needs the names alone need not wait
+
     variables = {
         name: ("time", np.asarray(columns[name], dtype=np.float64), {"units": unit, "long_name": long_name})
         for name, (unit, long_name) in VARIABLES.items()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import tempfile
 from collections.abc import Callable
 from importlib.metadata import version
 from pathlib import Path
@@ -53,3 +54,12 @@ def paper_study(car_trailer_fmu: Path) -> Study:
 def paper_figures(paper_study: Study) -> dict[str, Figure]:
     """The figures of that study, drawn once."""
     return figures(paper_study)
+
+
+@pytest.fixture
+def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Where temporary folders are made, those of guests too."""
+    folder = tmp_path / "temporary"
+    folder.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(folder))
+    return folder

@@ -9,7 +9,15 @@ import typer
 
 from overrun_hitch.commands.hints import hint
 from overrun_hitch.commands.numbers import doubling, numbers
-from overrun_hitch.commands.options import ParametersOption, SetOption, asked_changes, file_stem, name_with, our_fmu
+from overrun_hitch.commands.options import (
+    ParametersOption,
+    SetOption,
+    TimeLimitOption,
+    asked_changes,
+    file_stem,
+    name_with,
+    our_fmu,
+)
 from overrun_hitch.parameters import CASES, named
 
 STEPS = "0.001,0.002,0.005,0.01,0.02,0.05"
@@ -24,6 +32,7 @@ def couple(
     car: Annotated[Path | None, typer.Option(help="Car FMU instead of our own.")] = None,
     trailer: Annotated[Path | None, typer.Option(help="Trailer FMU instead of our own.")] = None,
     whole: Annotated[Path | None, typer.Option(help="Car and trailer in one piece instead of our own.")] = None,
+    time_limit: TimeLimitOption = 60.0,
     output: Annotated[Path, typer.Option(help="Folder for the files written.")] = Path("build/couple"),
 ) -> int:
     """Couple car and trailer by the schemes that masters have, and compare with the model in one piece."""
@@ -34,17 +43,21 @@ def couple(
 
     # Imported here, because fmpy and matplotlib would slow down `hitch --help` and wrong options.
     from overrun_hitch.coupling.figure import draw_coupling
-    from overrun_hitch.coupling.pair import opened_pair
+    from overrun_hitch.coupling.pair import guest_pair
     from overrun_hitch.coupling.study import check_step, study_coupling
     from overrun_hitch.coupling.table import csv_columns, show
     from overrun_hitch.fmu.files import CAR, CAR_TRAILER, TRAILER
-    from overrun_hitch.fmu.opening import opened_unit
+    from overrun_hitch.fmu.guest_unit import guest_unit
     from overrun_hitch.show import files, terminal, traces
 
     for step in steps:
         check_step(step)
     one, first, second = (whole or our_fmu(CAR_TRAILER), car or our_fmu(CAR), trailer or our_fmu(TRAILER))
-    with terminal.patience("Coupling") as told, opened_unit(one) as unit, opened_pair(first, second) as pair:
+    with (
+        terminal.patience("Coupling") as told,
+        guest_unit(one, time_limit) as unit,
+        guest_pair(first, second, time_limit) as pair,
+    ):
         study = study_coupling(pair, unit, changed, V, steps, told)
     hint(changed.changed({"V_0": V}))
     name = name_with(f"case {case}", base, changed)

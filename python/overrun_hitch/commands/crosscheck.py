@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from overrun_hitch.commands.options import file_stem
+from overrun_hitch.commands.options import TimeLimitOption, file_stem
 from overrun_hitch.parameters import FIGURES, HitchError, named
 
 
@@ -22,6 +23,7 @@ def crosscheck(
     step: Annotated[float, typer.Option(help="Communication step in s.")] = 0.01,
     funnel: Annotated[float, typer.Option(help="Allowed distance, relative to a variable's range in A.")] = 1e-3,
     funnel_time: Annotated[float, typer.Option(help="Allowed shift in time, in s.")] = 1e-4,
+    time_limit: TimeLimitOption = 60.0,
     json: Annotated[bool, typer.Option("--json", help="Print one JSON document instead of tables.")] = False,
     output: Annotated[Path, typer.Option(help="Folder for the files written.")] = Path("build/crosscheck"),
 ) -> int:
@@ -32,7 +34,8 @@ def crosscheck(
 
     # Imported here, because fmpy, xarray and matplotlib would slow down `hitch --help` and wrong options.
     from overrun_hitch.comparison import crosscheck_figures, crosscheck_table
-    from overrun_hitch.comparison.crosscheck import LABELS, Allowed, compare_fmus
+    from overrun_hitch.comparison.crosscheck import LABELS, Allowed, compare_units
+    from overrun_hitch.fmu.guest_unit import guest_file
     from overrun_hitch.fmu.settings import Settings
     from overrun_hitch.show import files, terminal, traces
 
@@ -42,9 +45,10 @@ def crosscheck(
     allowed = Allowed(funnel=funnel, funnel_time=funnel_time)
     checks = []
     contents: dict[Path, bytes] = {}  # written when all are there, so that an interrupted run leaves nothing
-    with terminal.patience("Crosschecking"):
+    with terminal.patience("Crosschecking"), ExitStack() as stack:
+        units = [stack.enter_context(guest_file(fmu, time_limit)) for fmu in fmus]
         for scenario in scenarios:
-            checks.append(compare_fmus(scenario, fmus, settings, allowed))
+            checks.append(compare_units(scenario, units, settings, allowed))
             picture = crosscheck_figures.draw(checks[-1], [fmu.name for fmu in fmus], allowed)
             for kind in traces.KINDS:
                 contents[output / f"{file_stem(scenario.name)}.{kind}"] = traces.rendered(picture, kind)

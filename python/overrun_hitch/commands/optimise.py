@@ -8,7 +8,15 @@ import typer
 
 from overrun_hitch.commands.hints import hint
 from overrun_hitch.commands.numbers import numbers
-from overrun_hitch.commands.options import FmuOption, ParametersOption, SetOption, asked_changes, chosen_fmu, name_with
+from overrun_hitch.commands.options import (
+    FmuOption,
+    ParametersOption,
+    SetOption,
+    TimeLimitOption,
+    asked_changes,
+    chosen_fmu,
+    name_with,
+)
 from overrun_hitch.parameters import CASES, DATUM, HitchError, Parameters, named
 
 
@@ -24,6 +32,7 @@ def optimise(
     set_: SetOption = None,
     parameters: ParametersOption = None,
     fmu: FmuOption = None,
+    time_limit: TimeLimitOption = 60.0,
 ) -> int:
     """The smallest C (or --free) with enough damping, by linear theory; the FMU confirms it and tells what it costs.
 
@@ -38,14 +47,14 @@ def optimise(
     from overrun_hitch.design import optimise_table
     from overrun_hitch.design.optimise import Wanted, default_range
     from overrun_hitch.design.optimise import optimise as search
-    from overrun_hitch.fmu.opening import opened_unit
+    from overrun_hitch.fmu.guest_unit import guest_unit
     from overrun_hitch.show import terminal
 
     wanted = Wanted(ratio=ratio, V_low=V_low, V_high=V_high)
     low, high = default_range(base, free) if range_ is None else _ends("--range", range_)
     for end in (low, high):
         base.changed({free: end})
-    with terminal.patience("Looking"), opened_unit(chosen_fmu(fmu)) as unit:
+    with terminal.patience("Looking"), guest_unit(chosen_fmu(fmu), time_limit) as unit:
         found = search(unit, base, free, low, high, wanted)
     hint(base.changed({"V_0": V_high}))
     optimise_table.show(name_with("figure 8" if case is None else f"case {case}", start, base), wanted, found)

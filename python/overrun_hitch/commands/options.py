@@ -20,6 +20,7 @@ ParametersOption = Annotated[
     Path | None,
     typer.Option("--parameters", metavar="FILE.toml", help="Change the parameters in this file (SI); --set wins."),
 ]
+TimeLimitOption = Annotated[float, typer.Option("--time-limit", help="Time in s that a run of an FMU may take.")]
 FmuOption = Annotated[Path | None, typer.Option(help="FMU file to run instead of our own.")]
 
 

@@ -7,11 +7,12 @@ from typing import Annotated
 
 import typer
 
-from overrun_hitch.commands.options import FmuOption, chosen_fmu
+from overrun_hitch.commands.options import FmuOption, TimeLimitOption, chosen_fmu
 
 
 def paper(
     fmu: FmuOption = None,
+    time_limit: TimeLimitOption = 60.0,
     json: Annotated[bool, typer.Option("--json", help="Print one JSON document instead of tables.")] = False,
     output: Annotated[Path, typer.Option(help="Folder for the figures written.")] = Path("build/paper"),
 ) -> int:
@@ -29,7 +30,7 @@ def paper(
 
     unit = chosen_fmu(fmu)
     with terminal.patience("Recomputing the paper") as say:
-        computed = study.study(unit, say)
+        computed = study.study(unit, say, time_limit)
         claims = all_claims(computed)
         contents = {  # written when all are there, so that an interrupted run leaves nothing
             output / f"{stem(name)}.{kind}": rendered(figure, kind)

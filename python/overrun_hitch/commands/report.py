@@ -8,13 +8,14 @@ from typing import Annotated
 
 import typer
 
-from overrun_hitch.commands.options import FmuOption, chosen_fmu
+from overrun_hitch.commands.options import FmuOption, TimeLimitOption, chosen_fmu
 
 FOLDER = Path("build/report")
 
 
 def report(
     fmu: FmuOption = None,
+    time_limit: TimeLimitOption = 60.0,
     output: Annotated[Path, typer.Option(help="Folder for index.html.")] = FOLDER,
 ) -> int:
     """Write index.html: the paper's figures and claims, both linearisations, the boundary, limit cycles, a conclusion.
@@ -29,7 +30,7 @@ def report(
     unit = chosen_fmu(fmu)
     path = output / "index.html"
     with terminal.patience("Recomputing the paper") as say:
-        found = report_of(study.study(unit, say), _with_options(COMMAND, fmu, output), say)
+        found = report_of(study.study(unit, say, time_limit), _with_options(COMMAND, fmu, output), say)
         content = page(found).encode()
     files.write({path: content})
     show(found, path)

@@ -13,6 +13,7 @@ from overrun_hitch.commands.options import (
     FmuOption,
     ParametersOption,
     SetOption,
+    TimeLimitOption,
     asked_changes,
     chosen_fmu,
     file_stem,
@@ -31,6 +32,7 @@ def run(
     tolerance: Annotated[float, typer.Option(help="Relative tolerance of the integrator.")] = 1e-6,
     step: Annotated[float, typer.Option(help="Communication step in s.")] = 0.01,
     fmu: FmuOption = None,
+    time_limit: TimeLimitOption = 60.0,
     output: Annotated[Path, typer.Option(help="Folder for the files written.")] = Path("build/run"),
 ) -> int:
     """Brake car and trailer by a step, compare with theory, draw the paper's traces and write them as CSV."""
@@ -39,20 +41,20 @@ def run(
     )
 
     # Imported here, because fmpy, xarray and matplotlib would slow down `hitch --help` and wrong options.
-    from overrun_hitch import results
-    from overrun_hitch.comparison import theory_table
-    from overrun_hitch.comparison.theory import compare
-    from overrun_hitch.experiments.step_brake import car_alone, step_brake
-    from overrun_hitch.show import files, terminal, traces
+    from overrun_hitch.fmu.guest_unit import guest_file
+    from overrun_hitch.fmu.settings import Settings
 
-    accuracy: dict[str, Any] = {
-        "fmu": chosen_fmu(fmu),
-        "relative_tolerance": tolerance,
-        "communication_step": step,
-    }
-    with terminal.patience("Braking"):
-        result = step_brake(scenario, **accuracy)
-        rows = compare(result, step_brake(car_alone(scenario), **accuracy))
+    settings = Settings(relative_tolerance=tolerance, communication_step=step)
+    with guest_file(chosen_fmu(fmu), time_limit) as unit:  # which gets ready while the rest is imported
+        from overrun_hitch import results
+        from overrun_hitch.comparison import theory_table
+        from overrun_hitch.comparison.theory import compare
+        from overrun_hitch.experiments.step_brake import brake, car_alone
+        from overrun_hitch.show import files, terminal, traces
+
+        with terminal.patience("Braking"):
+            result = brake(unit, scenario, settings)
+            rows = compare(result, brake(unit, car_alone(scenario), settings))
     hint(scenario.parameters, scenario.brake_torque)
     stem = output / file_stem(scenario.name)
     table = stem.with_name(f"{stem.name}.csv")

@@ -11,6 +11,7 @@ from overrun_hitch.commands.options import (
     FmuOption,
     ParametersOption,
     SetOption,
+    TimeLimitOption,
     asked_changes,
     chosen_fmu,
     file_stem,
@@ -30,6 +31,7 @@ def sensitivity(
     scheduler: SchedulerOption = None,
     workers: WorkersOption = None,
     fmu: FmuOption = None,
+    time_limit: TimeLimitOption = 60.0,
     output: Annotated[Path, typer.Option(help="Folder for the files written.")] = Path("build/sensitivity"),
 ) -> int:
     """Sobol indices of damping and of peak jerk for every parameter, from step brakes of 6 s on the FMU."""
@@ -49,7 +51,7 @@ def sensitivity(
     stem = output / file_stem(name)
     store = stem.with_name(f"{stem.name}.zarr")
     with terminal.counting("Running") as told:
-        sweep = run_plan(plan, store, scheduler=scheduler, workers=workers, progress=told)
+        sweep = run_plan(plan, store, scheduler=scheduler, workers=workers, time_limit=time_limit, progress=told)
     with terminal.patience("Analysing"):
         found = analysed(sweep, base, variation)
     title = f"{changed[:1].upper()}{changed[1:]}: every parameter by {spread:.0%} to either side"

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from overrun_hitch.commands.options import FmuOption, chosen_fmu, file_stem
+from overrun_hitch.commands.options import FmuOption, TimeLimitOption, chosen_fmu, file_stem
 from overrun_hitch.parameters import HitchError
 
 SchedulerOption = Annotated[
@@ -25,6 +25,7 @@ def sweep(
         typer.Option("--map", metavar="METRIC", help="Draw this metric over the two axes of the grid."),
     ] = None,
     fmu: FmuOption = None,
+    time_limit: TimeLimitOption = 60.0,
     output: Annotated[Path, typer.Option(help="Folder for the files written.")] = Path("build/sweep"),
 ) -> int:
     """Run every combination that SPEC.toml asks for and write metrics, on request trajectories, as a Zarr store.
@@ -49,7 +50,7 @@ def sweep(
     stem = output / file_stem(asked.name)
     store = stem.with_name(f"{stem.name}.zarr")
     with terminal.counting("Running") as told:
-        result = run_plan(plan, store, scheduler=scheduler, workers=workers, progress=told)
+        result = run_plan(plan, store, scheduler=scheduler, workers=workers, time_limit=time_limit, progress=told)
     paths = [store]
     for metric in map_ or ():
         paths += traces.save(sweep_figures.draw_map(result, metric), stem.with_name(f"{stem.name}-{metric}"))

@@ -16,7 +16,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
-from pathlib import Path
 from string import ascii_uppercase
 
 import numpy as np
@@ -24,8 +23,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from overrun_hitch.comparison.theory import shunting
-from overrun_hitch.experiments.step_brake import step_brake
+from overrun_hitch.experiments.step_brake import brake
 from overrun_hitch.fmu.settings import Settings
+from overrun_hitch.fmu.unit import AnyUnit
 from overrun_hitch.measure.funnel import Funnel, funnel
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.measure.oscillation import NoOscillation, Oscillation
@@ -97,12 +97,12 @@ class Crosscheck:
     comparisons: tuple[Comparison, ...]  # of all but A
 
 
-def compare_fmus(scenario: Scenario, fmus: Sequence[Path], settings: Settings, allowed: Allowed) -> Crosscheck:
-    """Run `scenario` on each FMU and compare with the first. HitchError for a file that is no such FMU.
+def compare_units(scenario: Scenario, units: Sequence[AnyUnit], settings: Settings, allowed: Allowed) -> Crosscheck:
+    """Run `scenario` on each unit and compare with the first. HitchError for a file that is no such FMU.
 
-    Every run has an instance of its own: what other tools' FMUs do when they are reset is another question.
+    Units in one process may share more than their names; see guest_file.
     """
-    runs = tuple(step_brake(scenario, fmu=fmu, **settings.model_dump()) for fmu in fmus)
+    runs = tuple(brake(unit, scenario, settings) for unit in units)
     others = zip(LABELS[1:], runs[1:], strict=False)
     return Crosscheck(scenario, runs, tuple(compare_runs(runs[0], run, label, allowed) for label, run in others))
 

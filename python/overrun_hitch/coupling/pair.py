@@ -15,8 +15,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from overrun_hitch.fmu.guest import Guest
 from overrun_hitch.fmu.messages import StepRefused
 from overrun_hitch.fmu.opening import opened
+from overrun_hitch.fmu.settings import TIME_LIMIT, checked_time_limit
 from overrun_hitch.fmu.unit import Unit
 from overrun_hitch.parameters import Parameters
 
@@ -161,9 +163,34 @@ ADVANCES: Mapping[str, Callable[[Pair, Scheme, float, float, float], tuple[float
 }
 
 
+class GuestPair:
+    """A Pair in a process of its own, where its runs are made."""
+
+    def __init__(self, guest: Guest) -> None:
+        self._guest = guest
+
+    def run(
+        self, scheme: Scheme, parameters: Parameters, brake_torque: float, duration: float, H: float, tolerance: float
+    ) -> Coupled:
+        """As Pair.run; GuestLost where that takes too long or crashes."""
+        coupled: Coupled = self._guest.call(Pair.run, scheme, parameters, brake_torque, duration, H, tolerance)
+        return coupled
+
+
+@contextmanager
+def guest_pair(car: Path, trailer: Path, time_limit: float = TIME_LIMIT) -> Iterator[GuestPair]:
+    """Both FMU files open in one process, as masters have them: each of their thousands of calls is answered at once.
+
+    `time_limit` in s, for each run.
+    """
+    limit = checked_time_limit(time_limit)
+    with Guest(f"{car} with {trailer}", limit, opened_pair, car, trailer) as guest:
+        yield GuestPair(guest)
+
+
 @contextmanager
 def opened_pair(car: Path, trailer: Path) -> Iterator[Pair]:
-    """Both FMU files open. HitchError as for unit.opened."""
+    """Both FMU files open, in this process. HitchError as for unit.opened."""
     car_names = [*CAR_OUTPUTS, *CAR_PARAMETERS, "brake_torque", "F_hitch"]
     trailer_names = [*TRAILER_OUTPUTS, *TRAILER_PARAMETERS, *FORCES, "v_car", "extrapolation", "applied_force"]
     with opened(car, car_names, "a car") as first, opened(trailer, trailer_names, "a trailer") as second:

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from overrun_hitch.coupling.pair import SCHEMES, Coupled, Pair, Scheme
+from overrun_hitch.coupling.pair import SCHEMES, Coupled, GuestPair, Pair, Scheme
 from overrun_hitch.experiments.free_vibration import DECELERATION, SHARE, MeasuredMode, measured_mode
 from overrun_hitch.fmu.messages import StepRefused
-from overrun_hitch.fmu.unit import HitchUnit
+from overrun_hitch.fmu.unit import AnyUnit
 from overrun_hitch.measure.oscillation import NoOscillation, measure
 from overrun_hitch.parameters import HitchError, Parameters
 from overrun_hitch.theory.steady import steady
@@ -54,8 +54,8 @@ class CouplingStudy:
 
 
 def study_coupling(
-    pair: Pair,
-    whole: HitchUnit,
+    pair: Pair | GuestPair,
+    whole: AnyUnit,
     parameters: Parameters,
     V: float,
     steps: Iterable[float],
@@ -102,7 +102,7 @@ def gentle_braking(parameters: Parameters, V: float) -> tuple[Parameters, float]
     return parameters.changed({"V_0": V - 0.5 * DURATION * braking.A, "compression_start": compression}), torque
 
 
-def _point(pair: Pair, scheme: Scheme, parameters: Parameters, V: float, H: float) -> Point:
+def _point(pair: Pair | GuestPair, scheme: Scheme, parameters: Parameters, V: float, H: float) -> Point:
     check_step(H)
     start, torque = gentle_braking(parameters, V)
     expected = rise_per_second(scheme, parameters) * H

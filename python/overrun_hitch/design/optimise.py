@@ -17,7 +17,7 @@ from scipy.optimize import brentq, minimize_scalar
 from overrun_hitch.experiments.free_vibration import measured_decay, measured_mode
 from overrun_hitch.experiments.step_brake import brake
 from overrun_hitch.fmu.settings import Settings
-from overrun_hitch.fmu.unit import HitchUnit
+from overrun_hitch.fmu.unit import AnyUnit
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.measure.metrics import NEEDED, Traces, measured
 from overrun_hitch.parameters import HitchError, Parameters, Quantities, Scenario, quantity
@@ -67,7 +67,7 @@ class Optimum:
     costs: Mapping[str, tuple[float, float]]  # metric: before, after; step brake at V_high
 
 
-def optimise(unit: HitchUnit, parameters: Parameters, name: str, low: float, high: float, wanted: Wanted) -> Optimum:
+def optimise(unit: AnyUnit, parameters: Parameters, name: str, low: float, high: float, wanted: Wanted) -> Optimum:
     """The smallest `name` from `low` to `high` (SI units) that is enough, confirmed. HitchError if none is."""
     found = smallest(parameters, name, low, high, wanted)
     after = parameters.changed({name: found.value})
@@ -140,7 +140,7 @@ def least_damping(parameters: Parameters, wanted: Wanted) -> tuple[float, float]
     )
 
 
-def _confirmed(unit: HitchUnit, parameters: Parameters, V: float) -> tuple[Judged, float]:
+def _confirmed(unit: AnyUnit, parameters: Parameters, V: float) -> tuple[Judged, float]:
     """Theory and the FMU, and what the fit leaves.
 
     By the logarithmic decrement where a damper of two rates makes the motion no exponential.
@@ -156,7 +156,7 @@ def _confirmed(unit: HitchUnit, parameters: Parameters, V: float) -> tuple[Judge
     return Judged(f"damping ratio at {V:.4g} m/s", "1", theory, found, allowed), residual
 
 
-def _costs(unit: HitchUnit, before: Parameters, after: Parameters, V: float) -> dict[str, tuple[float, float]]:
+def _costs(unit: AnyUnit, before: Parameters, after: Parameters, V: float) -> dict[str, tuple[float, float]]:
     """The metrics COSTS of step brakes at V (m/s), before and after."""
     runs = [
         brake(unit, Scenario(name="cost", parameters=each.changed({"V_0": V})), SETTINGS) for each in (before, after)

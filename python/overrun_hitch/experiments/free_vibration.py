@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from overrun_hitch.experiments.step_brake import brake
 from overrun_hitch.fmu.settings import Settings
-from overrun_hitch.fmu.unit import HitchUnit
+from overrun_hitch.fmu.unit import AnyUnit
 from overrun_hitch.measure.envelope import measured_decrement
 from overrun_hitch.measure.oscillation import FEWEST_PERIODS, NoOscillation, fitting, measure
 from overrun_hitch.parameters import HitchError, Parameters, Scenario
@@ -51,7 +51,7 @@ class MeasuredMode:
         return complex(self.growth_rate, 2.0 * math.pi * self.frequency)
 
 
-def measured_mode(unit: HitchUnit, parameters: Parameters, V: float) -> MeasuredMode:
+def measured_mode(unit: AnyUnit, parameters: Parameters, V: float) -> MeasuredMode:
     """Growth rate, frequency and shape of the shunting mode at V (m/s), by a run of a few seconds.
 
     Theory is asked only how long to look. HitchError where the motion does not oscillate, or no exponential fits it.
@@ -72,7 +72,7 @@ def measured_mode(unit: HitchUnit, parameters: Parameters, V: float) -> Measured
     )
 
 
-def measured_decay(unit: HitchUnit, parameters: Parameters, V: float) -> complex:
+def measured_decay(unit: AnyUnit, parameters: Parameters, V: float) -> complex:
     """The eigenvalue (1/s) at V (m/s) by the logarithmic decrement: also of a damper of two rates (see envelope.py).
 
     HitchError where the motion does not oscillate.
@@ -82,7 +82,7 @@ def measured_decay(unit: HitchUnit, parameters: Parameters, V: float) -> complex
     return complex(growth_rate, 2.0 * math.pi * frequency)
 
 
-def _observed(unit: HitchUnit, parameters: Parameters, V: float) -> tuple[xr.Dataset, NDArray[np.bool_]]:
+def _observed(unit: AnyUnit, parameters: Parameters, V: float) -> tuple[xr.Dataset, NDArray[np.bool_]]:
     """The run, and the samples after the wheels have settled."""
     expected = complex(shunting_mode(working_point(parameters.known_to_theory).linear, V).eigenvalue)
     if expected.imag <= 0.0:

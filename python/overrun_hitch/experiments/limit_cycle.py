@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from overrun_hitch.fmu.unit import HitchUnit
+from overrun_hitch.fmu.unit import AnyUnit, HitchUnit
 from overrun_hitch.measure.oscillation import NoOscillation, measure
 from overrun_hitch.parameters import Parameters
 from overrun_hitch.results import VARIABLES
@@ -48,15 +48,15 @@ def weight_push(parameters: Parameters, grade: float) -> float:
     return -parameters.M_t * g_n * grade / math.hypot(1.0, grade)
 
 
-def sustained_motion(unit: HitchUnit, parameters: Parameters, V: float, grade: float, amplitude: float) -> Sustained:
+def sustained_motion(unit: AnyUnit, parameters: Parameters, V: float, grade: float, amplitude: float) -> Sustained:
     """What becomes of an oscillation of `amplitude` (m) at V (m/s), downhill (grade < 0)."""
     p = parameters
     beyond = weight_push(p, grade) / (p.k + p.r / p.R_t)
     start = p.changed({"V_0": V, "compression_start": p.eps + beyond + amplitude})
-    try:
-        speed, compression = _descend(unit, start, V, grade, beyond)
-    except _Lost:
+    descent = unit.perform(_descend, start, V, grade, beyond)
+    if descent is None:
         return Sustained("runs away", *NOTHING)
+    speed, compression = descent
     last = slice(-round(OBSERVED / STEP), None)
     time: Floats = np.arange(round(OBSERVED / STEP), dtype=np.float64) * STEP
     if np.ptp(compression[last]) < 2.0 * FADED * beyond:
@@ -73,12 +73,11 @@ def sustained_motion(unit: HitchUnit, parameters: Parameters, V: float, grade: f
     )
 
 
-class _Lost(Exception):
-    """The speed could not be held."""
+def _descend(unit: HitchUnit, start: Parameters, V: float, grade: float, beyond: float) -> tuple[Floats, Floats] | None:
+    """Speed (n,) in m/s and compression (n,) in m of a descent with the driver's brake as a slow PI control.
 
-
-def _descend(unit: HitchUnit, start: Parameters, V: float, grade: float, beyond: float) -> tuple[Floats, Floats]:
-    """Speed (n,) in m/s and compression (n,) in m of a descent with the driver's brake as a slow PI control."""
+    None where the speed could not be held.
+    """
     p = start
     mass = p.M_c + p.M_t
     steady = p.R_c * (weight_push(p, grade) * mass / p.M_t - p.r * beyond / p.R_t)
@@ -90,7 +89,7 @@ def _descend(unit: HitchUnit, start: Parameters, V: float, grade: float, beyond:
         rows.append((outputs[v_car], outputs[compression]))
         error = outputs[v_car] - V
         if abs(error) > 0.5 * V:
-            raise _Lost
+            return None
         integral += error * STEP
         correction = p.R_c * mass * (error + integral / SPEED_TIME) / SPEED_TIME
         unit.set({"brake_torque": max(0.0, steady + correction)})

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from overrun_hitch.fmu.unit import HitchUnit
+from overrun_hitch.fmu.unit import AnyUnit, HitchUnit
 from overrun_hitch.parameters import Parameters
 from overrun_hitch.results import VARIABLES
 from overrun_hitch.theory.linear import reduced_matrix
@@ -59,17 +59,16 @@ class Linearisation:
         return first, second
 
 
-def at_zero_slip(unit: HitchUnit, parameters: Parameters, V: float, compression: float = 0.01) -> Linearisation:
+def at_zero_slip(unit: AnyUnit, parameters: Parameters, V: float, compression: float = 0.01) -> Linearisation:
     """At the start of a run: wheels roll at V (m/s), the drawbar is pushed in by `compression` (m) beyond eps.
 
     There the paper's linearisation is exact.
     """
     start = parameters.changed({"V_0": V, "compression_start": parameters.eps + compression})
-    unit.start(start, {"brake_torque": 0.0}, RELATIVE_TOLERANCE)
-    return _linearisation(unit, start, V)
+    return _linearisation(unit.perform(_linearised, start, 0.0, 0.0), start, V)
 
 
-def at_steady_braking(unit: HitchUnit, parameters: Parameters, V: float, brake_torque: float) -> Linearisation:
+def at_steady_braking(unit: AnyUnit, parameters: Parameters, V: float, brake_torque: float) -> Linearisation:
     """After 3 s of braking by `brake_torque` (N.m), when the speed has fallen to about V (m/s).
 
     A tyre force C_k (v - R omega) / v has the slope C_k (1 - slip) / v by v, where the paper, holding the denominator
@@ -77,13 +76,24 @@ def at_steady_braking(unit: HitchUnit, parameters: Parameters, V: float, brake_t
     """
     start = steady(parameters, brake_torque)
     changed = parameters.changed({"V_0": V - SETTLED * start.A, "compression_start": start.D})
-    unit.start(changed, {"brake_torque": brake_torque}, RELATIVE_TOLERANCE)
-    unit.step(0.0, SETTLED)
-    return _linearisation(unit, parameters, unit.outputs()[list(VARIABLES).index("v_car")])
+    found = unit.perform(_linearised, changed, brake_torque, SETTLED)
+    return _linearisation(found, parameters, found[2]["v_car"])
 
 
-def _linearisation(unit: HitchUnit, parameters: Parameters, V: float) -> Linearisation:
-    names, jacobian = unit.jacobian()
+def _linearised(
+    unit: HitchUnit, parameters: Parameters, brake_torque: float, after: float
+) -> tuple[list[str], Floats, dict[str, float]]:
+    """Names of the states, their Jacobian, and the outputs, `after` so many s of braking."""
+    unit.start(parameters, {"brake_torque": brake_torque}, RELATIVE_TOLERANCE)
+    if after:
+        unit.step(0.0, after)
+    return *unit.jacobian(), dict(zip(VARIABLES, unit.outputs(), strict=True))
+
+
+def _linearisation(
+    found: tuple[list[str], Floats, dict[str, float]], parameters: Parameters, V: float
+) -> Linearisation:
+    names, jacobian, outputs = found
     order = [names.index(FMU_STATES[state]) for state in STATES]
     ordered = jacobian[np.ix_(order, order)]
     # From (x_c, delta, ...) to (x_c, x_t, ...): T = d(paper's states)/d(FMU's).
@@ -91,7 +101,6 @@ def _linearisation(unit: HitchUnit, parameters: Parameters, V: float) -> Lineari
     change[1, 0] = 1.0
     back = np.eye(len(STATES))
     back[1, 0] = -1.0
-    outputs = dict(zip(VARIABLES, unit.outputs(), strict=True))
     return Linearisation(
         V=V,
         slip_car=outputs["slip_car"],

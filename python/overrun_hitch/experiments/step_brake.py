@@ -11,10 +11,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from overrun_hitch.fmu.opening import opened_unit
-from overrun_hitch.fmu.settings import Settings
-from overrun_hitch.fmu.unit import HitchUnit
-from overrun_hitch.parameters import HitchError, Parameters, Scenario
+from overrun_hitch.experiments.drive import drive
+from overrun_hitch.fmu.guest import GuestLost
+from overrun_hitch.fmu.guest_unit import guest_file
+from overrun_hitch.fmu.settings import TIME_LIMIT, Settings
+from overrun_hitch.fmu.unit import AnyUnit
+from overrun_hitch.parameters import DATUM, HitchError, Parameters, Scenario
 from overrun_hitch.results import VARIABLES, dataset, scenario_attributes
 
 MOST_STEPS = 1_000_000  # a table of 10 columns of that length takes 80 MB
@@ -22,16 +24,24 @@ STANDSTILL = 0.1  # m/s: the paper's slip, a difference over the speed, means no
 
 
 def step_brake(
-    scenario: Scenario, *, fmu: Path, relative_tolerance: float = 1e-6, communication_step: float = 0.01
+    scenario: Scenario,
+    *,
+    fmu: Path,
+    relative_tolerance: float = 1e-6,
+    communication_step: float = 0.01,
+    time_limit: float = TIME_LIMIT,
 ) -> xr.Dataset:
-    """`brake` on an FMU file that is opened for this one run. HitchError also for a file that is no such FMU."""
+    """`brake` on an FMU file that is opened for this one run, in a process of its own. `time_limit` in s.
+
+    HitchError also for a file that is no such FMU, and for one that crashes or takes longer.
+    """
     settings = Settings(relative_tolerance=relative_tolerance, communication_step=communication_step)
     _communication_points(scenario, settings.communication_step)  # what is wrong with it comes first
-    with opened_unit(fmu) as unit:
+    with guest_file(fmu, time_limit) as unit:
         return brake(unit, scenario, settings)
 
 
-def brake(unit: HitchUnit, scenario: Scenario, settings: Settings) -> xr.Dataset:
+def brake(unit: AnyUnit, scenario: Scenario, settings: Settings) -> xr.Dataset:
     """Run `scenario` on the unit and sample it at the communication points, t = 0 included (see results.dataset).
 
     The run ends early, with attribute `ended` = "standstill", before car or trailer comes to rest, where the paper's
@@ -39,13 +49,12 @@ def brake(unit: HitchUnit, scenario: Scenario, settings: Settings) -> xr.Dataset
     HitchError.
     """
     points = _communication_points(scenario, settings.communication_step)
-    unit.start(scenario.parameters, {"brake_torque": scenario.brake_torque}, settings.relative_tolerance)
-    rows = [unit.outputs()]
-    for now, then in pairwise(points.tolist()):
-        if _comes_to_rest(rows[-1], then - now):
-            break
-        unit.step(now, then - now)
-        rows.append(unit.outputs())
+    steps = [(now, then - now) for now, then in pairwise(points.tolist())]
+    inputs = {"brake_torque": scenario.brake_torque}
+    try:
+        rows = unit.perform(drive, scenario.parameters, inputs, settings.relative_tolerance, steps, STANDSTILL)
+    except GuestLost as error:
+        raise HitchError(f"{error}; {_differences(scenario)}") from None
     attributes = {
         **scenario_attributes(scenario),
         **settings.model_dump(),
@@ -54,7 +63,7 @@ def brake(unit: HitchUnit, scenario: Scenario, settings: Settings) -> xr.Dataset
         "ended": "duration" if len(rows) == len(points) else "standstill",
         "versions": ", ".join(f"{name} {version(name)}" for name in ("fmpy", "numpy", "xarray")),
     }
-    return dataset(points[: len(rows)], dict(zip(VARIABLES, np.array(rows).T, strict=True)), attributes)
+    return dataset(points[: len(rows)], dict(zip(VARIABLES, rows.T, strict=True)), attributes)
 
 
 def car_alone(scenario: Scenario) -> Scenario:
@@ -74,7 +83,9 @@ def _communication_points(scenario: Scenario, h: float) -> np.ndarray[Any, np.dt
     return np.append(np.arange(steps) * h, duration)
 
 
-def _comes_to_rest(row: list[float], h: float) -> bool:
-    v_car, v_trailer, a_car, a_trailer = row[:4]
-    # Twice the step: an acceleration that grows within it must not carry the run past rest.
-    return min(v_car + 2.0 * h * min(a_car, 0.0), v_trailer + 2.0 * h * min(a_trailer, 0.0)) < STANDSTILL
+def _differences(scenario: Scenario) -> str:
+    """What the run was, in a line."""
+    given = {**scenario.parameters.model_dump(), "brake_torque": scenario.brake_torque}
+    datum = {**DATUM.model_dump(), "brake_torque": Scenario.model_fields["brake_torque"].default}
+    changed = ", ".join(f"{name}={value:g}" for name, value in given.items() if value != datum[name])
+    return f"the run was figure 8 with {changed}" if changed else "the run was figure 8"

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from overrun_hitch.experiments.drive import drive
 from overrun_hitch.experiments.free_vibration import WHEELS_SETTLED
-from overrun_hitch.fmu.unit import HitchUnit
+from overrun_hitch.fmu.unit import AnyUnit
 from overrun_hitch.measure.envelope import measured_envelope
 from overrun_hitch.parameters import Scenario
 from overrun_hitch.results import VARIABLES
@@ -47,14 +48,12 @@ class Stop:
         return slice(round(WHEELS_SETTLED / STEP), int(over.argmax()) if over.any() else None)
 
 
-def stop(unit: HitchUnit, scenario: Scenario) -> Stop:
+def stop(unit: AnyUnit, scenario: Scenario) -> Stop:
     """Brake for the scenario's duration, beyond rest if it is long enough."""
     wanted = [list(VARIABLES).index(name) for name in ("v_car", "compression")]
-    unit.start(scenario.parameters, {"brake_torque": scenario.brake_torque}, RELATIVE_TOLERANCE)
-    rows = [unit.outputs()]
-    for n in range(round(scenario.duration / STEP)):
-        unit.step(n * STEP, STEP)
-        rows.append(unit.outputs())
-    v_car, compression = np.array(rows)[:, wanted].T
+    steps = [(n * STEP, STEP) for n in range(round(scenario.duration / STEP))]
+    inputs = {"brake_torque": scenario.brake_torque}
+    rows = unit.perform(drive, scenario.parameters, inputs, RELATIVE_TOLERANCE, steps)
+    v_car, compression = rows[:, wanted].T
     time: Floats = np.arange(len(rows), dtype=np.float64) * STEP
     return Stop(scenario, time, v_car, compression)

@@ -1,3 +1,14 @@
 """Find, open and drive an FMU; the only place that knows fmpy."""
 
-__all__ = ["description", "files", "messages", "opening", "profiles", "sampler", "settings", "unit"]
+__all__ = [
+    "description",
+    "files",
+    "guest",
+    "guest_unit",
+    "messages",
+    "opening",
+    "profiles",
+    "sampler",
+    "settings",
+    "unit",
+]

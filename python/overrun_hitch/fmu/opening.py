@@ -21,13 +21,10 @@ from overrun_hitch.results import VARIABLES
 
 
 @contextmanager
-def opened_unit(fmu: Path, folder: Path | None = None) -> Iterator[HitchUnit]:
-    """CarTrailer.fmu, see `opened`. HitchError also for an FMU that has not its variables.
-
-    It is unpacked within `folder`, or where the system keeps temporary files.
-    """
+def opened_unit(fmu: Path) -> Iterator[HitchUnit]:
+    """CarTrailer.fmu, see `opened`. HitchError also for an FMU that has not its variables."""
     needed = [*VARIABLES, *Parameters.model_fields, "brake_torque"]
-    with _opened(fmu, needed, "a car and trailer", folder) as (description, slave, messages):
+    with _opened(fmu, needed, "a car and trailer") as (description, slave, messages):
         yield HitchUnit(fmu.name, description, slave, messages)
 
 
@@ -43,10 +40,8 @@ def opened(fmu: Path, needed: Sequence[str], what: str) -> Iterator[Unit]:
 
 
 @contextmanager
-def _opened(
-    fmu: Path, needed: Sequence[str], what: str, within: Path | None = None
-) -> Iterator[tuple[Any, Any, list[str]]]:
-    with unpacked(fmu, within) as (description, folder):
+def _opened(fmu: Path, needed: Sequence[str], what: str) -> Iterator[tuple[Any, Any, list[str]]]:
+    with unpacked(fmu) as (description, folder):
         names = {variable.name for variable in description.modelVariables}
         missing = [name for name in needed if name not in names]
         if missing:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, Concatenate, ParamSpec, Protocol, TypeVar
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
@@ -18,6 +18,9 @@ from overrun_hitch.fmu.messages import StartRefused, StepRefused, refusal
 from overrun_hitch.fmu.sampler import Floats, Sampler
 from overrun_hitch.parameters import Parameters
 from overrun_hitch.results import VARIABLES
+
+P = ParamSpec("P")
+R = TypeVar("R")
 
 
 class Unit:
@@ -103,6 +106,10 @@ class Unit:
 class HitchUnit(Unit):
     """CarTrailer.fmu, or another tool's export of it."""
 
+    def perform(self, run: Callable[Concatenate[HitchUnit, P], R], *args: P.args, **kwargs: P.kwargs) -> R:
+        """`run(self, ...)`: see AnyUnit."""
+        return run(self, *args, **kwargs)
+
     def start(self, parameters: Parameters, inputs: Mapping[str, float], relative_tolerance: float) -> None:
         """From any state to t = 0 of a new run with these parameters and inputs (SI units)."""
         self.start_with({**parameters.model_dump(), **inputs}, relative_tolerance)
@@ -110,3 +117,16 @@ class HitchUnit(Unit):
     def outputs(self) -> list[float]:
         """The outputs in the order of results.VARIABLES."""
         return self.get(list(VARIABLES))
+
+
+class AnyUnit(Protocol):
+    """CarTrailer.fmu, opened in this process (HitchUnit) or in another (guest_unit.py)."""
+
+    name: str
+
+    @property
+    def guid(self) -> str:
+        """Of the FMU's description."""
+
+    def perform(self, run: Callable[Concatenate[HitchUnit, P], R], *args: P.args, **kwargs: P.kwargs) -> R:
+        """`run(unit, ...)` where the unit is: `run` is a function of a module, and what goes in and out is pickled."""

@@ -1,12 +1,14 @@
-"""FMU files unpacked while they are needed, after a look at whether this machine can run them."""
+"""FMU files unpacked while they are needed, after a look at whether that is harmless and whether they can run here."""
 
 from __future__ import annotations
 
+import stat
 import tempfile
 import zipfile
+import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from typing import Any
 
 import fmpy
@@ -14,26 +16,92 @@ import fmpy
 from overrun_hitch.fmu.messages import one_line
 from overrun_hitch.parameters import HitchError
 
+# What an archive may hold: far more than an FMU needs, far less than harms. Ours for five systems unpacks to 3 MB.
+MOST_ENTRIES = 10_000
+DEEPEST = 32  # folders
+LARGEST = 2**30  # bytes, unpacked
+HIGHEST_RATIO = 200  # of unpacked to packed; binaries have 2 to 10, and a deflated bomb 1000
+SMALL = 2**24  # bytes: below, the ratio harms nobody
+PIECE = 2**20  # bytes read at once
+
 
 @contextmanager
-def unpacked(fmu: Path, within: Path | None = None) -> Iterator[tuple[Any, str]]:
+def unpacked(fmu: Path) -> Iterator[tuple[Any, str]]:
     """The model description of an FMU that this machine can run, and the folder it is unpacked in while needed."""
     if not fmu.is_file():
         raise HitchError(f"{fmu} is not there: an FMU file is needed")
-    with tempfile.TemporaryDirectory(prefix="hitch-", dir=within) as folder:
+    with tempfile.TemporaryDirectory(prefix="hitch-") as folder:
+        names = _extract(fmu, Path(folder))
+        if "modelDescription.xml" not in names:
+            raise HitchError(f"{fmu} is broken: it has no modelDescription.xml")
         try:
-            description = fmpy.read_model_description(str(fmu))
-            with zipfile.ZipFile(fmu) as archive:
-                names = archive.namelist()
-            fmpy.extract(str(fmu), unzipdir=folder)
-        except zipfile.BadZipFile:
-            raise HitchError(f"{fmu} is broken: an FMU is a zip archive") from None
-        except KeyError:
-            raise HitchError(f"{fmu} is broken: it has no modelDescription.xml") from None
+            description = fmpy.read_model_description(folder)
         except Exception as error:  # fmpy raises bare Exception, and lxml its own
             raise HitchError(f"{fmu} is broken: {one_line(error)}") from None
         _check_kind(fmu, description, names)
         yield description, folder
+
+
+def _extract(fmu: Path, folder: Path) -> list[str]:
+    """Unpack it and return the names in it. HitchError for what is no archive, or not a harmless one."""
+    try:
+        with zipfile.ZipFile(fmu) as archive:
+            entries = archive.infolist()
+            _check_entries(fmu, entries)
+            left = LARGEST
+            for entry in entries:
+                left -= _extract_one(archive, entry, folder, left)
+                if left < 0:
+                    raise _too_large(fmu)
+    except zipfile.BadZipFile:
+        raise HitchError(f"{fmu} is broken: an FMU is a zip archive") from None
+    except OSError as error:
+        raise HitchError(f"{fmu} cannot be unpacked: {error.strerror or one_line(error)}") from None
+    except (EOFError, RuntimeError, zlib.error) as error:  # cut off, encrypted, packed in an unknown way, garbled
+        raise HitchError(f"{fmu} is broken: {one_line(error)}") from None
+    return [entry.filename for entry in entries]
+
+
+def _check_entries(fmu: Path, entries: list[zipfile.ZipInfo]) -> None:
+    """By what the archive says of itself."""
+    if len(entries) > MOST_ENTRIES:
+        raise HitchError(f"{fmu} is not unpacked: it has {len(entries)} entries; allowed: at most {MOST_ENTRIES}")
+    for entry in entries:
+        path = PureWindowsPath(entry.filename)  # which knows both slashes, and drives
+        if path.anchor or ".." in path.parts or not path.parts:
+            raise HitchError(f"{fmu} is not unpacked: {entry.filename!r:.80} would lie outside its folder")
+        if stat.S_ISLNK(entry.external_attr >> 16):
+            raise HitchError(f"{fmu} is not unpacked: {entry.filename!r:.80} is a link; allowed: files and folders")
+        if len(path.parts) > DEEPEST:
+            raise HitchError(
+                f"{fmu} is not unpacked: {entry.filename!r:.80} lies in {len(path.parts) - 1} folders; "
+                f"allowed: less than {DEEPEST}"
+            )
+    size, packed = (sum(getattr(entry, kind) for entry in entries) for kind in ("file_size", "compress_size"))
+    if size > LARGEST:
+        raise _too_large(fmu)
+    if size > max(SMALL, HIGHEST_RATIO * packed):
+        raise HitchError(
+            f"{fmu} is not unpacked: it grows {size / max(packed, 1):.0f} times; allowed: at most {HIGHEST_RATIO} times"
+        )
+
+
+def _too_large(fmu: Path) -> HitchError:
+    return HitchError(f"{fmu} is not unpacked: it holds more than {LARGEST / 2**20:g} MiB, which is the most allowed")
+
+
+def _extract_one(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, folder: Path, most: int) -> int:
+    """The bytes written, little more than `most`: an archive may say less of itself than it holds."""
+    target = folder / entry.filename
+    if entry.is_dir():
+        target.mkdir(parents=True, exist_ok=True)
+        return 0
+    target.parent.mkdir(parents=True, exist_ok=True)
+    written = 0
+    with archive.open(entry) as source, target.open("wb") as file:
+        while written <= most and (piece := source.read(PIECE)):
+            written += file.write(piece)
+    return written
 
 
 def _check_kind(fmu: Path, description: Any, names: list[str]) -> None:

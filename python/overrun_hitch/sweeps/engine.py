@@ -1,4 +1,4 @@
-"""A sweep on Dask: a cluster on this machine, or one that is running elsewhere, with the same call.
+"""A sweep: on this machine's cores, or on a Dask cluster that is running elsewhere, with the same call.
 
 The client alone reads and writes the store; workers get rows and give arrays, so they need no common file system. So
 few batches are under way at once that memory does not grow with the sweep.
@@ -8,40 +8,32 @@ from __future__ import annotations
 
 import itertools
 import logging
-import signal
-import tempfile
 import uuid
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
-from multiprocessing import resource_tracker
 from pathlib import Path
 from typing import Any
 
-import dask
 import xarray as xr
 from dask.system import CPU_COUNT
-from distributed import Client, Future, KilledWorker, LocalCluster, as_completed
+from distributed import Client, Future, KilledWorker, as_completed
 from distributed.comm import CommClosedError
 from distributed.utils import silence_logging_cmgr
-from tornado.ioloop import PeriodicCallback
 
+from overrun_hitch.fmu.settings import TIME_LIMIT, checked_time_limit
 from overrun_hitch.parameters import HitchError
 from overrun_hitch.sweeps.job import Batch, Done, Job
+from overrun_hitch.sweeps.local_crew import LocalCrew
 from overrun_hitch.sweeps.plan import Plan
 from overrun_hitch.sweeps.planner import planned
 from overrun_hitch.sweeps.spec import SweepSpec, read_spec
 from overrun_hitch.sweeps.store import FAILED, MISSING, SweepStore, opened_store, read_sweep
 from overrun_hitch.sweeps.worker import Runners, run_batch
 
-LOOPBACK = "127.0.0.1"
 AHEAD = 2  # batches for each thread of a worker: one under way, one at hand
 PATIENCE = 10.0  # s, for a scheduler to answer, or to answer again
 WORKERS_PATIENCE = 60.0  # s, for the first worker
-SETTINGS = {
-    "distributed.deploy.lost-worker-timeout": "5s",  # after which a worker that is gone is replaced
-    "distributed.worker.profile.enabled": False,  # looks into the worker every 10 ms
-}
 WORKER_DIED = "the worker process died in this run, and again when it was repeated"
 
 Progress = Callable[[int, int, int], object]  # told runs done, failed ones among them, runs in all
@@ -54,41 +46,61 @@ def sweep(
     fmus: Sequence[Path] = (),
     scheduler: str | None = None,
     workers: int | None = None,
+    time_limit: float = TIME_LIMIT,
     progress: Progress = lambda done, failed, runs: None,
 ) -> xr.Dataset:
     """Run what is missing of the sweep in the Zarr `store` and return the whole, see store.read_sweep.
 
     spec: a SweepSpec, its keywords or a TOML file. fmus: the files to run where the spec names none; ours, if it is
     empty too. scheduler: the address of a Dask scheduler ("tcp://host:8786"), on whose workers this package is
-    installed; else `workers` processes (one for each core) on this machine, which listen on the loopback alone.
-    A script that calls this needs the `if __name__ == "__main__"` that Python asks for where processes are made.
+    installed; else `workers` processes (one for each core) on this machine. time_limit: what a run may take, in s.
     HitchError for whatever is wrong with the spec or the store, before the first run; a run that fails is recorded.
     """
     if isinstance(spec, Path):
         spec = read_spec(spec)
     elif isinstance(spec, Mapping):
         spec = SweepSpec(**spec)
-    return run_plan(planned(spec, _fmus(spec, fmus)), store, scheduler=scheduler, workers=workers, progress=progress)
+    return run_plan(
+        planned(spec, _fmus(spec, fmus)),
+        store,
+        scheduler=scheduler,
+        workers=workers,
+        time_limit=time_limit,
+        progress=progress,
+    )
 
 
 def run_plan(
-    plan: Plan, store: Path, *, scheduler: str | None = None, workers: int | None = None, progress: Progress
+    plan: Plan,
+    store: Path,
+    *,
+    scheduler: str | None = None,
+    workers: int | None = None,
+    time_limit: float = TIME_LIMIT,
+    progress: Progress,
 ) -> xr.Dataset:
     """As `sweep`, of a plan."""
     if workers is not None and not 1 <= workers <= 1000:
         raise HitchError(f"workers = {workers} is not allowed; allowed: 1 to 1000 processes")
+    limit = checked_time_limit(time_limit)
     with opened_store(store, plan) as opened:
         tally = _Tally(opened, plan.runs, progress)
         if opened.missing():
-            with _client(scheduler, min(workers or CPU_COUNT, opened.batches)) as client:
-                try:
-                    with _Crew(client, plan.job) as crew:
-                        _run_missing(crew, opened, tally)
-                except (CancelledError, CommClosedError, OSError, TimeoutError):
-                    raise HitchError(
-                        f"the scheduler is gone; {tally.done} of {plan.runs} runs are in {store}, and the same command "
-                        "goes on from there"
-                    ) from None
+            if scheduler is None:
+                with LocalCrew(plan.job, limit, min(workers or CPU_COUNT, opened.batches)) as crew:
+                    _run_missing(crew, opened, tally)
+            else:
+                with _client(scheduler) as client:
+                    try:
+                        with _Crew(client, plan.job, limit) as crew:
+                            # One run at a time, with nothing else under way: so the one that dies is the one to blame.
+                            for number in _run_missing(crew, opened, tally):
+                                tally.write(number, crew.one_by_one(opened.batch(number)))
+                    except (CancelledError, CommClosedError, OSError, TimeoutError):
+                        raise HitchError(
+                            f"the scheduler is gone; {tally.done} of {plan.runs} runs are in {store}, and the same "
+                            "command goes on from there"
+                        ) from None
     return read_sweep(store)
 
 
@@ -120,46 +132,9 @@ class _Tally:
 
 
 @contextmanager
-def _client(scheduler: str | None, workers: int) -> Iterator[Client]:
-    """Connected to `scheduler`, or to a cluster of our own that ends with the block."""
-    with silence_logging_cmgr(logging.CRITICAL):  # what the user is to know, we say
-        if scheduler is None:
-            with _local_cluster(workers) as cluster, Client(cluster, set_as_default=False) as client:
-                yield client
-        else:
-            with _connected(scheduler) as client:
-                yield client
-
-
-@contextmanager
-def _local_cluster(workers: int) -> Iterator[LocalCluster]:
-    resource_tracker.ensure_running()  # where a process is made first, this would undo what _prepare does
-    with (
-        tempfile.TemporaryDirectory(prefix="hitch-sweep-", ignore_cleanup_errors=True) as folder,
-        dask.config.set({"temporary-directory": folder, **SETTINGS}),
-        LocalCluster(
-            n_workers=0,
-            threads_per_worker=1,
-            host=LOOPBACK,
-            dashboard_address=f"{LOOPBACK}:0",
-            worker_dashboard_address=f"{LOOPBACK}:0",
-            silence_logs=logging.CRITICAL,  # of the workers as well
-        ) as cluster,
-    ):
-        cluster.sync(_prepare, cluster, workers)
-        yield cluster
-
-
-async def _prepare(cluster: LocalCluster, workers: int) -> None:
-    """In the thread that makes worker processes."""
-    # They inherit this, so Ctrl-C does not reach them: this process ends them.
-    if hasattr(signal, "pthread_sigmask"):
-        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    cluster.scale(workers)
-    # A worker that dies while it starts is given up by Dask, and missed here.
-    keeper = PeriodicCallback(lambda: cluster.scale(workers), 1000.0)
-    cluster.periodic_callbacks["keep the number of workers"] = keeper
-    keeper.start()
+def _client(scheduler: str) -> Iterator[Client]:
+    with silence_logging_cmgr(logging.CRITICAL), _connected(scheduler) as client:  # what the user is to know, we say
+        yield client
 
 
 @contextmanager
@@ -172,7 +147,8 @@ def _connected(scheduler: str) -> Iterator[Client]:
         yield client
 
 
-def _run_missing(crew: _Crew, store: SweepStore, tally: _Tally) -> None:
+def _run_missing(crew: LocalCrew | _Crew, store: SweepStore, tally: _Tally) -> list[int]:
+    """Returns the numbers of the batches in which workers died."""
     waiting = iter(store.missing())
     under_way = crew.completions()
     numbers: dict[Any, int] = {}
@@ -192,21 +168,19 @@ def _run_missing(crew: _Crew, store: SweepStore, tally: _Tally) -> None:
         except KilledWorker:
             deadly.append(number)
         top_up()
-    # One run at a time, with nothing else under way: so the one that dies is the one to blame.
-    for number in deadly:
-        tally.write(number, crew.one_by_one(store.batch(number)))
+    return deadly
 
 
 class _Crew:
     """The workers, equipped for one job."""
 
-    def __init__(self, client: Client, job: Job) -> None:
-        self._client, self._job = client, job
+    def __init__(self, client: Client, job: Job, time_limit: float) -> None:
+        self._client, self._job, self._time_limit = client, job, time_limit
         self._name = f"hitch-sweep-{uuid.uuid4().hex}"
 
     def __enter__(self) -> _Crew:
         self._client.wait_for_workers(1, timeout=WORKERS_PATIENCE)
-        self._client.register_plugin(Runners(self._job), name=self._name)
+        self._client.register_plugin(Runners(self._job, self._time_limit), name=self._name)
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -137,7 +137,7 @@ def test_interrupted(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     def interrupt(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("overrun_hitch.experiments.step_brake.step_brake", interrupt)
+    monkeypatch.setattr("overrun_hitch.experiments.step_brake.brake", interrupt)
     assert cli.main(["run", "--fmu", "any.fmu", "--output", str(tmp_path / "out")]) == 130
     assert not (tmp_path / "out").exists()
 

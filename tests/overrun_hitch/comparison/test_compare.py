@@ -10,11 +10,12 @@ import pytest
 import xarray as xr
 
 from overrun_hitch.comparison.theory import compare, shunting
-from overrun_hitch.experiments.step_brake import car_alone, step_brake
+from overrun_hitch.experiments.step_brake import car_alone
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.measure.oscillation import Oscillation
 from overrun_hitch.parameters import CASES, FIGURES, Scenario
 from tests.oracles import radau
+from tests.runs import step_brake
 
 OracleRun = Callable[..., xr.Dataset]
 

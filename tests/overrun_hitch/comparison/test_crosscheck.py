@@ -21,7 +21,6 @@ from overrun_hitch import cli
 from overrun_hitch.comparison import crosscheck_table
 from overrun_hitch.comparison.crosscheck import Allowed, Comparison, Crosscheck, compare_runs
 from overrun_hitch.comparison.crosscheck_figures import LINES, draw
-from overrun_hitch.experiments.step_brake import step_brake
 from overrun_hitch.measure.funnel import funnel
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.measure.passages import passages
@@ -30,6 +29,7 @@ from overrun_hitch.results import VARIABLES
 from overrun_hitch.show.traces import KINDS, rendered
 from tests.oracles import radau
 from tests.overrun_hitch.experiments.test_step_brake import rewritten
+from tests.runs import step_brake
 
 Brake = Callable[..., xr.Dataset]
 TIME = np.arange(601) * 0.01

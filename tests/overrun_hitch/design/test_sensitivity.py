@@ -11,8 +11,8 @@ import xarray as xr
 from overrun_hitch import cli
 from overrun_hitch.design.sensitivity import Variation, analysed, plan_variation, varied
 from overrun_hitch.parameters import DATUM, HitchError
+from overrun_hitch.sweeps.runner import Runner
 from overrun_hitch.sweeps.store import opened_store, read_sweep
-from overrun_hitch.sweeps.worker import Runner
 from overrun_hitch.theory.linear import shunting_mode
 from overrun_hitch.theory.steady import steady
 
@@ -21,7 +21,7 @@ SMALL = Variation(samples=16)
 
 def runs(fmu: Path, store: Path) -> xr.Dataset:
     plan = plan_variation(DATUM, SMALL, fmu, "small", communication_step=0.05)
-    runner = Runner(plan.job)
+    runner = Runner(plan.job, fmu)
     with opened_store(store, plan) as opened:
         for number in opened.missing():
             opened.write(number, runner.run(opened.batch(number)))

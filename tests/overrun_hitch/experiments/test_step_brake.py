@@ -15,12 +15,15 @@ from fmpy.fmi1 import FMICallException
 
 from overrun_hitch import cli
 from overrun_hitch.comparison.theory import compare
-from overrun_hitch.experiments.step_brake import car_alone, step_brake
+from overrun_hitch.experiments.step_brake import brake, car_alone
 from overrun_hitch.fmu.opening import opened_unit
+from overrun_hitch.fmu.settings import Settings
+from overrun_hitch.fmu.unit import AnyUnit
 from overrun_hitch.parameters import CASES, FIGURES, HitchError, Scenario
 from overrun_hitch.results import VARIABLES, read_csv, scenario_of
 from overrun_hitch.theory.steady import steady
 from tests.oracles import radau
+from tests.runs import step_brake
 from tests.sampling import sampled, spread
 
 
@@ -195,11 +198,11 @@ def test_the_command_writes_what_it_says(
 def test_disagreement_is_status_1(car_trailer_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """With theory told another damper than the FMU has."""
 
-    def other_damper(scenario: Scenario, **settings: object) -> object:
+    def other_damper(unit: AnyUnit, scenario: Scenario, settings: Settings) -> object:
         changed = scenario.changed(parameters=scenario.parameters.changed({"C": 1.1 * scenario.parameters.C}))
-        return step_brake(changed, **settings).assign_attrs(C=scenario.parameters.C)  # type: ignore[arg-type]
+        return brake(unit, changed, settings).assign_attrs(C=scenario.parameters.C)
 
-    monkeypatch.setattr("overrun_hitch.experiments.step_brake.step_brake", other_damper)
+    monkeypatch.setattr("overrun_hitch.experiments.step_brake.brake", other_damper)
     assert cli.main(["run", "--fmu", str(car_trailer_fmu), "--output", str(tmp_path)]) == 1
 
 

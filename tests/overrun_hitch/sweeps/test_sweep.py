@@ -13,7 +13,6 @@ from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
-import dask
 import numpy as np
 import psutil
 import pytest
@@ -21,16 +20,17 @@ import xarray as xr
 
 import overrun_hitch
 from overrun_hitch import cli
-from overrun_hitch.experiments.step_brake import step_brake
 from overrun_hitch.measure.metrics import METRICS
 from overrun_hitch.parameters import FIGURES, HitchError, Parameters
 from overrun_hitch.results import VARIABLES
 from overrun_hitch.sweeps.engine import WORKER_DIED
 from overrun_hitch.sweeps.job import Batch, Done
 from overrun_hitch.sweeps.planner import planned
+from overrun_hitch.sweeps.runner import Runner
 from overrun_hitch.sweeps.spec import SweepSpec
 from overrun_hitch.sweeps.store import FAILED, FINISHED, MISSING, opened_store, read_sweep
-from overrun_hitch.sweeps.worker import Runner, run_batch
+from overrun_hitch.sweeps.worker import run_batch
+from tests.runs import step_brake
 
 # Long enough to be interrupted in the middle: some seconds, in dozens of batches.
 LONG: dict[str, Any] = {
@@ -52,7 +52,7 @@ M_t = { min = 300.0, max = 700.0, count = 30 }
 def alone(spec: SweepSpec, fmu: Path, store: Path) -> xr.Dataset:
     """The sweep without any cluster."""
     plan = planned(spec, [fmu])
-    runner = Runner(plan.job)
+    runner = Runner(plan.job, fmu)
     try:
         with opened_store(store, plan) as opened:
             for number in opened.missing():
@@ -68,9 +68,9 @@ def undisturbed(car_trailer_fmu: Path, tmp_path_factory: pytest.TempPathFactory)
 
 
 def workers() -> list[psutil.Process]:
-    """The worker processes that this one has."""
+    """The processes that run for this one."""
     found = psutil.Process().children(recursive=True)
-    return [child for child in found if "--multiprocessing-fork" in child.cmdline()]
+    return [child for child in found if any("guest_process" in word for word in child.cmdline())]
 
 
 class KillAWorker:
@@ -130,7 +130,7 @@ def wait_until_gone(group: int) -> None:
 def test_a_killed_sweep_goes_on_where_it_stopped(
     car_trailer_fmu: Path, tmp_path: Path, undisturbed: xr.Dataset
 ) -> None:
-    """kill -9 of the sweep, in whose process the local scheduler is, and of a worker of the one that goes on."""
+    """kill -9 of the sweep, and of a guest of the one that goes on."""
     store = tmp_path / "long.zarr"
     process = hitch(tmp_path, car_trailer_fmu)
     wait_until_midway(store, process)
@@ -253,22 +253,25 @@ def test_a_run_that_fails_is_recorded_and_stops_nothing(car_trailer_fmu: Path, t
     assert found["peak_compression"].values[2] == good["peak_compression"].values[0]
 
 
-@pytest.mark.parametrize("forgiven", [0, pytest.param(3, marks=pytest.mark.full)])  # deaths; Dask's default is 3
-def test_a_run_in_which_workers_die_is_recorded(
+@pytest.mark.full
+@pytest.mark.parametrize("forgiven", [0, 3])  # deaths; Dask's default is 3
+def test_a_run_in_which_workers_of_a_cluster_die_is_recorded(
     forgiven: int, car_trailer_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")]))
+    path = [str(Path(__file__).parents[3]), str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")]
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(path))
+    monkeypatch.setenv("DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES", str(forgiven))
     spec = {"metrics": ["peak_jerk"], "grid": {"C": [100.0, 666.0, 300.0]}, "communication_step": 0.1}
     monkeypatch.setattr("overrun_hitch.sweeps.engine.run_batch", deadly_batch)
-    with dask.config.set({"distributed.scheduler.allowed-failures": forgiven}):
-        found = overrun_hitch.sweep(spec, tmp_path / "deadly.zarr", fmus=[car_trailer_fmu], workers=1)
+    with running_cluster(tmp_path) as (address, _):
+        found = overrun_hitch.sweep(spec, tmp_path / "deadly.zarr", fmus=[car_trailer_fmu], scheduler=address)
     assert found["status"].values.tolist() == [FINISHED, FAILED, FINISHED]
     assert str(found["message"].values[1]) == WORKER_DIED
     assert np.isfinite(found["peak_jerk"].values[[0, 2]]).all()
 
 
 def deadly_batch(name: str, batch: Batch) -> Done:
-    """What an FMU does that crashes its process."""
+    """What ends the process of a worker, whatever it is."""
     if 666.0 in batch.values:
         os.kill(os.getpid(), signal.SIGKILL)
     return run_batch(name, batch)
@@ -338,14 +341,18 @@ def test_no_scheduler_and_bad_workers(car_trailer_fmu: Path, tmp_path: Path) -> 
         overrun_hitch.sweep(spec, tmp_path / "b.zarr", fmus=[car_trailer_fmu], scheduler="nonsense://x")
 
 
-def test_the_command_draws_and_tells_and_listens_to_this_machine_alone(
+def test_the_command_draws_and_tells_and_nothing_listens(
     car_trailer_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    heard: set[str] = set()
+    heard: list[object] = []
+    processes = 0
 
     def listen(*_: object) -> None:
-        for process in [psutil.Process(), *workers()]:
-            heard.update(one.laddr.ip for one in process.net_connections() if one.status == psutil.CONN_LISTEN)
+        nonlocal processes
+        family = [psutil.Process(), *workers()]
+        processes = max(processes, len(family))
+        for process in family:
+            heard.extend(one for one in process.net_connections("all") if one.status == psutil.CONN_LISTEN)
 
     monkeypatch.setattr("overrun_hitch.show.terminal.counting", lambda _: nullcontext(listen))
     spec = tmp_path / "map.toml"
@@ -357,6 +364,7 @@ def test_the_command_draws_and_tells_and_listens_to_this_machine_alone(
     assert {path.name for path in (tmp_path / "out").iterdir()} == {
         "map.zarr", "map-growth_rate.png", "map-growth_rate.svg"
     }  # fmt: skip
-    assert heard == {"127.0.0.1"}
+    assert processes == 2
+    assert heard == []
     assert cli.main(["sweep", str(spec), "--map", "speed", *options]) == 2
     assert "there is no metric 'speed'" in capsys.readouterr().err

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from overrun_hitch.experiments.free_vibration import measured_mode
 from overrun_hitch.experiments.limit_cycle import Sustained, sustained_motion, weight_push
 from overrun_hitch.experiments.stop import Stop, stop
-from overrun_hitch.fmu.unit import HitchUnit
+from overrun_hitch.fmu.unit import AnyUnit
 from overrun_hitch.measure.envelope import measured_envelope
 from overrun_hitch.parameters import CASES, DATUM, Parameters, Scenario
 from overrun_hitch.theory.boundary import critical_damping
@@ -135,14 +135,14 @@ class Shunting:
         return abs(self.in_theory.largest_error) < STOP_ALLOWED
 
 
-def boundary(unit: HitchUnit) -> Boundary:
+def boundary(unit: AnyUnit) -> Boundary:
     """The chart and its checks."""
     C_crit = np.array([[critical_damping(designed(ratio), V) for ratio in RATIOS] for V in SPEEDS])
     checks = tuple(_check(unit, V, ratio) for V in CHECKED_SPEEDS for ratio in CHECKED_RATIOS)
     return Boundary(SPEEDS, RATIOS, C_crit, checks)
 
 
-def _check(unit: HitchUnit, V: float, ratio: float) -> Check:
+def _check(unit: AnyUnit, V: float, ratio: float) -> Check:
     parameters = designed(ratio)
     C_crit = critical_damping(parameters, V)
     below, above = (
@@ -152,7 +152,7 @@ def _check(unit: HitchUnit, V: float, ratio: float) -> Check:
     return Check(V, ratio, C_crit, below, above)
 
 
-def motions(unit: HitchUnit, progress: Callable[[str], object]) -> tuple[Motion, ...]:
+def motions(unit: AnyUnit, progress: Callable[[str], object]) -> tuple[Motion, ...]:
     """Case ii downhill at held speed, over C and eps."""
     found = []
     for eps in CYCLE_CLEARANCES:
@@ -161,7 +161,7 @@ def motions(unit: HitchUnit, progress: Callable[[str], object]) -> tuple[Motion,
     return tuple(found)
 
 
-def _motion(unit: HitchUnit, parameters: Parameters) -> Motion:
+def _motion(unit: AnyUnit, parameters: Parameters) -> Motion:
     push = weight_push(parameters, CYCLE_GRADE)
     steady = push / (parameters.k + parameters.r / parameters.R_t)
     stable = (cycle for cycle in predicted_cycles(parameters, CYCLE_SPEED, push) if cycle.is_stable)
@@ -171,12 +171,12 @@ def _motion(unit: HitchUnit, parameters: Parameters) -> Motion:
     return Motion(parameters.C, parameters.eps, steady, predicted, fmu)
 
 
-def stops(unit: HitchUnit) -> tuple[Shunting, ...]:
+def stops(unit: AnyUnit) -> tuple[Shunting, ...]:
     """Case ii from 40 m/s to rest, with dampers between which growth turns to decay earlier or later."""
     return tuple(_shunting(unit, CASES["ii"].changed({"C": C}), share) for C, share in STOPS)
 
 
-def _shunting(unit: HitchUnit, parameters: Parameters, share: float) -> Shunting:
+def _shunting(unit: AnyUnit, parameters: Parameters, share: float) -> Shunting:
     braking = steady(parameters, STOP_TORQUE)
     scenario = Scenario(
         name="stop",

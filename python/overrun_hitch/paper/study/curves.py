@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from overrun_hitch.experiments.free_vibration import MeasuredMode, measured_mode
-from overrun_hitch.fmu.unit import HitchUnit
+from overrun_hitch.fmu.unit import AnyUnit
 from overrun_hitch.parameters import CASES, Parameters
 from overrun_hitch.theory.linear import ShuntingMode, shunting_mode
 
@@ -66,7 +66,7 @@ class Locus:
         return np.array([float(mode.frequency) for mode in getattr(self, side)])
 
 
-def locus(unit: HitchUnit, curve: Curve) -> Locus:
+def locus(unit: AnyUnit, curve: Curve) -> Locus:
     """Theory and FMU along the curve."""
     return Locus(
         curve=curve,

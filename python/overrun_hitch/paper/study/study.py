@@ -12,9 +12,9 @@ from threadpoolctl import threadpool_limits
 from overrun_hitch.comparison.theory import compare
 from overrun_hitch.experiments.linearisation import Linearisation, at_steady_braking, at_zero_slip
 from overrun_hitch.experiments.step_brake import brake, car_alone
-from overrun_hitch.fmu.opening import opened_unit
-from overrun_hitch.fmu.settings import Settings
-from overrun_hitch.fmu.unit import HitchUnit
+from overrun_hitch.fmu.guest_unit import guest_unit
+from overrun_hitch.fmu.settings import TIME_LIMIT, Settings
+from overrun_hitch.fmu.unit import AnyUnit
 from overrun_hitch.paper.study.beyond import Boundary, Motion, Shunting, boundary, motions, stops
 from overrun_hitch.paper.study.curves import CURVES, Locus, V, locus
 from overrun_hitch.parameters import CASES, FIGURES, Parameters, Scenario
@@ -62,10 +62,13 @@ class Study:
     stops: tuple[Shunting, ...]  # to standstill
 
 
-def study(fmu: Path, progress: Callable[[str], object] = lambda _: None) -> Study:
-    """Compute everything on the FMU file and in theory; `progress` is told what is being done."""
+def study(fmu: Path, progress: Callable[[str], object] = lambda _: None, time_limit: float = TIME_LIMIT) -> Study:
+    """Compute everything on the FMU file and in theory; `progress` is told what is being done.
+
+    A run may take `time_limit` s.
+    """
     # The matrices are tiny: with more than one thread, BLAS spends two thirds of the time waiting for its own.
-    with threadpool_limits(limits=1), opened_unit(fmu) as unit:
+    with threadpool_limits(limits=1), guest_unit(fmu, time_limit) as unit:
         progress("braking: figures 6 to 11")
         runs = {name: brake(unit, scenario, SETTINGS) for name, scenario in FIGURES.items()}
         alone = {name: brake(unit, car_alone(scenario), SETTINGS) for name, scenario in FIGURES.items()}
@@ -113,7 +116,7 @@ def _theoretical_steady(parameters: Parameters) -> SteadyState:
     return SteadyState(theory.ratio, theory.A, theory.D)
 
 
-def _measured_steady(unit: HitchUnit, parameters: Parameters) -> SteadyState:
+def _measured_steady(unit: AnyUnit, parameters: Parameters) -> SteadyState:
     scenario = Scenario(name="steady braking", parameters=parameters, brake_torque=BRAKE_TORQUE)
     rows = compare(brake(unit, scenario, SETTINGS), brake(unit, car_alone(scenario), SETTINGS))
     found = {row.quantity: row.found for row in rows}
