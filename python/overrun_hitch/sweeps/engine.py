@@ -28,15 +28,16 @@ from tornado.ioloop import PeriodicCallback
 
 from overrun_hitch.parameters import HitchError
 from overrun_hitch.sweeps.job import Batch, Done, Job
+from overrun_hitch.sweeps.layout import FAILED, MISSING
 from overrun_hitch.sweeps.plan import Plan
 from overrun_hitch.sweeps.planner import planned
+from overrun_hitch.sweeps.remote import connected, own_version, run_here
 from overrun_hitch.sweeps.spec import SweepSpec, read_spec
-from overrun_hitch.sweeps.store import FAILED, MISSING, SweepStore, opened_store, read_sweep
+from overrun_hitch.sweeps.store import SweepStore, opened_store, read_sweep
 from overrun_hitch.sweeps.worker import Runners, run_batch
 
 LOOPBACK = "127.0.0.1"
 AHEAD = 2  # batches for each thread of a worker: one under way, one at hand
-PATIENCE = 10.0  # s, for a scheduler to answer, or to answer again
 WORKERS_PATIENCE = 60.0  # s, for the first worker
 SETTINGS = {
     "distributed.deploy.lost-worker-timeout": "5s",  # after which a worker that is gone is replaced
@@ -54,13 +55,15 @@ def sweep(
     fmus: Sequence[Path] = (),
     scheduler: str | None = None,
     workers: int | None = None,
+    repair: bool = False,
     progress: Progress = lambda done, failed, runs: None,
 ) -> xr.Dataset:
     """Run what is missing of the sweep in the Zarr `store` and return the whole, see store.read_sweep.
 
     spec: a SweepSpec, its keywords or a TOML file. fmus: the files to run where the spec names none; ours, if it is
-    empty too. scheduler: the address of a Dask scheduler ("tcp://host:8786"), on whose workers this package is
-    installed; else `workers` processes (one for each core) on this machine, which listen on the loopback alone.
+    empty too. scheduler: the address of a Dask scheduler ("tls://host:8786"), on whose workers this package is
+    installed (certificates are those of Dask's configuration); else `workers` processes (one for each core) on this
+    machine, which listen on the loopback alone. repair: run again what is damaged in the store, which else is an error.
     A script that calls this needs the `if __name__ == "__main__"` that Python asks for where processes are made.
     HitchError for whatever is wrong with the spec or the store, before the first run; a run that fails is recorded.
     """
@@ -68,16 +71,23 @@ def sweep(
         spec = read_spec(spec)
     elif isinstance(spec, Mapping):
         spec = SweepSpec(**spec)
-    return run_plan(planned(spec, _fmus(spec, fmus)), store, scheduler=scheduler, workers=workers, progress=progress)
+    plan = planned(spec, _fmus(spec, fmus))
+    return run_plan(plan, store, scheduler=scheduler, workers=workers, repair=repair, progress=progress)
 
 
 def run_plan(
-    plan: Plan, store: Path, *, scheduler: str | None = None, workers: int | None = None, progress: Progress
+    plan: Plan,
+    store: Path,
+    *,
+    scheduler: str | None = None,
+    workers: int | None = None,
+    repair: bool = False,
+    progress: Progress,
 ) -> xr.Dataset:
     """As `sweep`, of a plan."""
     if workers is not None and not 1 <= workers <= 1000:
         raise HitchError(f"workers = {workers} is not allowed; allowed: 1 to 1000 processes")
-    with opened_store(store, plan) as opened:
+    with opened_store(store, plan, repair=repair) as opened:
         tally = _Tally(opened, plan.runs, progress)
         if opened.missing():
             with _client(scheduler, min(workers or CPU_COUNT, opened.batches)) as client:
@@ -127,7 +137,7 @@ def _client(scheduler: str | None, workers: int) -> Iterator[Client]:
             with _local_cluster(workers) as cluster, Client(cluster, set_as_default=False) as client:
                 yield client
         else:
-            with _connected(scheduler) as client:
+            with connected(scheduler) as client:
                 yield client
 
 
@@ -162,16 +172,6 @@ async def _prepare(cluster: LocalCluster, workers: int) -> None:
     keeper.start()
 
 
-@contextmanager
-def _connected(scheduler: str) -> Iterator[Client]:
-    try:
-        client = Client(scheduler, timeout=PATIENCE, set_as_default=False)
-    except (OSError, ValueError, TimeoutError) as error:
-        raise HitchError(f"no Dask scheduler answers at {scheduler!r:.80}: {error}") from None
-    with client:
-        yield client
-
-
 def _run_missing(crew: _Crew, store: SweepStore, tally: _Tally) -> None:
     waiting = iter(store.missing())
     under_way = crew.completions()
@@ -188,13 +188,26 @@ def _run_missing(crew: _Crew, store: SweepStore, tally: _Tally) -> None:
     for future in under_way:
         number = numbers.pop(future)
         try:
-            tally.write(number, future.result())
+            tally.write(number, _result(future))
         except KilledWorker:
             deadly.append(number)
         top_up()
     # One run at a time, with nothing else under way: so the one that dies is the one to blame.
     for number in deadly:
         tally.write(number, crew.one_by_one(store.batch(number)))
+
+
+def _result(future: Future) -> Done:
+    """What came of a batch. KilledWorker; HitchError for what else went wrong where it ran; errors of the network."""
+    try:
+        done: Done = future.result()
+    except (HitchError, KilledWorker):
+        raise
+    except Exception as error:
+        if future.status != "error":
+            raise
+        raise HitchError(f"a worker can't run its batch: {type(error).__name__}: {error}") from None
+    return done
 
 
 class _Crew:
@@ -222,7 +235,7 @@ class _Crew:
         return as_completed(loop=self._client.loop)
 
     def submit(self, batch: Batch) -> Future:
-        return self._client.submit(run_batch, self._name, batch, pure=False)
+        return self._client.submit(run_here, own_version(), run_batch, self._name, batch, pure=False)
 
     def one_by_one(self, batch: Batch) -> Done:
         """The batch, with a message for each run in which a worker dies."""
@@ -230,7 +243,6 @@ class _Crew:
 
     def _one(self, run: Batch) -> Done:
         try:
-            done: Done = self.submit(run).result()
+            return _result(self.submit(run))
         except KilledWorker:
             return Done.failed(self._job, WORKER_DIED)
-        return done
