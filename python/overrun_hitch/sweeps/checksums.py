@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TypeVar
 
 FOLDER = "checksums"
-THREADS = 16  # that wait for the disk at once: it then writes for all of them together, in a tenth of the time
+THREADS = 16  # that wait for the disk at once: it then writes for all of them together
 
 One = TypeVar("One")
 Other = TypeVar("Other")

@@ -23,11 +23,15 @@ from overrun_hitch.sweeps.store import read_sweep
 SPEC = "metrics = ['peak_jerk']\ncommunication_step = 0.1\ngrid = {C = [100.0, 400.0, 900.0]}"
 
 
+def documented(program: str) -> list[str]:
+    """What docs/sweep.md says after the name of a program."""
+    text = (Path(__file__).parents[3] / "docs" / "sweep.md").read_text(encoding="utf-8")
+    return next(line for line in text.splitlines() if line.startswith(f"    {program} ")).split(program)[1].split()
+
+
 def certificate(folder: Path) -> Path:
-    """The command of docs/sweep.md."""
     folder.mkdir()
-    command = "openssl req -x509 -newkey rsa:2048 -nodes -days 365 -subj /CN=hitch -keyout key.pem -out cert.pem"
-    subprocess.run(command.split(), cwd=folder, check=True, capture_output=True)
+    subprocess.run(["openssl", *documented("openssl")], cwd=folder, check=True, capture_output=True)
     return folder
 
 
@@ -43,10 +47,10 @@ def free_port() -> int:
 
 
 @contextmanager
-def started(*command: str, **environment: str) -> Iterator[None]:
+def started(*command: str, folder: Path, **environment: str) -> Iterator[None]:
     process = subprocess.Popen(
-        [sys.executable, "-m", "dask", *command, "--no-dashboard", "--host", "127.0.0.1"],
-        env={**os.environ, **environment}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        [sys.executable, "-m", "dask", *command, "--host", "127.0.0.1"],
+        cwd=folder, env={**os.environ, **environment}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
     )  # fmt: skip
     try:
         yield
@@ -56,11 +60,10 @@ def started(*command: str, **environment: str) -> Iterator[None]:
 
 
 @contextmanager
-def scheduler(*options: str, scheme: str = "tcp") -> Iterator[str]:
+def scheduler(folder: Path, *options: str) -> Iterator[str]:
     """The address of one that listens on the loopback."""
-    port = free_port()
-    quiet = ["--dashboard-address", "127.0.0.1:0"]
-    with started("scheduler", "--protocol", scheme, "--port", str(port), *quiet, *options):
+    port, scheme = free_port(), "tls" if "tls" in options else "tcp"
+    with started("scheduler", "--port", str(port), "--dashboard-address", "127.0.0.1:0", *options, folder=folder):
         deadline = time.monotonic() + 60.0
         while time.monotonic() < deadline:
             try:
@@ -73,9 +76,8 @@ def scheduler(*options: str, scheme: str = "tcp") -> Iterator[str]:
 
 
 @contextmanager
-def worker(address: str, work: Path, *options: str, **environment: str) -> Iterator[None]:
-    placed = ["--nthreads", "1", "--no-nanny", "--local-directory", str(work)]
-    with started("worker", address, *placed, *options, **environment):
+def worker(folder: Path, address: str, *options: str, **environment: str) -> Iterator[None]:
+    with started("worker", address, "--local-directory", str(folder / "work"), *options, folder=folder, **environment):
         yield
 
 
@@ -139,7 +141,8 @@ def test_a_cluster_with_certificates(
     assert cli.main([*command, "--workers", "1"]) == 0
     store = tmp_path / "out" / "sweep.zarr"
     here = read_sweep(store).load()
-    with scheduler(*tls(ours), scheme="tls") as address, worker(address, tmp_path / "work", *tls(ours)):
+    options_of = {one: documented(f".venv/bin/dask {one}") for one in ("scheduler", "worker")}
+    with scheduler(ours, *options_of["scheduler"]) as address, worker(ours, address, *options_of["worker"][1:]):
         for options in (tls(ours), []):
             shutil.rmtree(store)
             capsys.readouterr()
@@ -156,7 +159,7 @@ def test_a_cluster_with_certificates(
         assert "no Dask scheduler answers at" in refusal(
             capsys, [*command, "--scheduler", address.replace("tls://", "tcp://")]
         )
-    with scheduler() as address:
+    with scheduler(tmp_path) as address:
         tcp_only = [*command, "--scheduler", address.replace("tcp://", "tls://"), *tls(ours)]
         assert "no Dask scheduler answers at" in refusal(capsys, tcp_only)
     monkeypatch.undo()
@@ -174,14 +177,14 @@ def test_workers_that_are_not_like_this_machine(
     other = shutil.copytree(package, tmp_path / "other" / "overrun_hitch", ignore=shutil.ignore_patterns("*.fmu"))
     with (other / "results.py").open("a") as file:
         file.write("# Another version.\n")
-    with scheduler() as address:
+    with scheduler(tmp_path) as address:
         asked = [*command, "--scheduler", address]
-        with worker(address, tmp_path / "work", PYTHONPATH=str(tmp_path / "without")):
+        with worker(tmp_path, address, PYTHONPATH=str(tmp_path / "without")):
             assert "can't run overrun_hitch: ModuleNotFoundError" in refusal(capsys, asked)
-        with worker(address, tmp_path / "work", PYTHONPATH=str(tmp_path / "other")):
+        with worker(tmp_path, address, PYTHONPATH=str(tmp_path / "other")):
             assert "has another version of overrun_hitch; allowed: the same" in refusal(capsys, asked)
         with (
-            worker(address, tmp_path / "work"),
+            worker(tmp_path, address),
             remote.connected(address) as client,
             pytest.raises(HitchError, match=r"the worker at tcp://.* has another version of overrun_hitch"),
         ):  # as one that comes when the others have been looked at

@@ -163,6 +163,28 @@ def test_what_an_interruption_has_torn_is_run_again_without_a_word(
     assert contents(store) == contents(finished)
 
 
+@pytest.mark.skipif(os.name != "posix", reason="folders are not put on disk there")
+def test_what_counts_is_on_disk_before_it_counts(sweep: Sweep, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every file and folder that a batch's list speaks of is synced while the list is not there; then the list."""
+    store, synced, sync = tmp_path / "sweep.zarr", dict[int, bool](), os.fsync
+    sweep.run(store, most=0)
+
+    def watched(descriptor: int) -> None:
+        sync(descriptor)
+        synced[os.fstat(descriptor).st_ino] = (store / "checksums" / "0").exists()
+
+    monkeypatch.setattr(os, "fsync", watched)
+    sweep.run(store, most=1)
+    lines = (store / "checksums" / "0").read_text().splitlines()[:-1]
+    files = [store / line.split("  ")[1] for line in lines]
+    assert len(files) >= 3
+    assert [synced[path.stat().st_ino] for path in (*files, *(file.parent for file in files))] == [False] * 2 * len(
+        files
+    )
+    assert synced[(store / "checksums" / "0").stat().st_ino] is False
+    assert synced[(store / "checksums").stat().st_ino] is True
+
+
 def test_others_read_the_store_as_before(finished: Path) -> None:
     """xarray and pandas, without a warning; the checksums by the system's own program."""
     with xr.open_zarr(finished, consolidated=False) as opened:
