@@ -1,8 +1,12 @@
-"""The command line `hitch`. Exit status: 0 agreement, 1 what is compared differs, 2 bad input, 130 interrupted."""
+"""The command line `hitch`.
+
+Exit status: 0 agreement, 1 what is compared differs, 2 bad input, 70 a fault of ours, 130 interrupted.
+"""
 
 from __future__ import annotations
 
 import sys
+import traceback
 from collections.abc import Sequence
 from importlib.metadata import PackageNotFoundError
 from importlib.metadata import version as installed_version
@@ -40,6 +44,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 2
     except (KeyboardInterrupt, typer.Abort):
         return 130
+    except Exception:  # Python's own status for it, 1, would say that something differs
+        traceback.print_exc()
+        return 70  # EX_SOFTWARE of sysexits.h
     return status if isinstance(status, int) else 0
 
 

@@ -7,6 +7,14 @@ from typing import Annotated
 
 import typer
 
+from overrun_hitch.commands.cluster import (
+    CaFileOption,
+    CertOption,
+    KeyOption,
+    SchedulerOption,
+    WorkersOption,
+    access,
+)
 from overrun_hitch.commands.options import (
     FmuOption,
     ParametersOption,
@@ -17,7 +25,7 @@ from overrun_hitch.commands.options import (
     file_stem,
     name_with,
 )
-from overrun_hitch.commands.sweep import SchedulerOption, WorkersOption
+from overrun_hitch.commands.sweep import RepairOption
 from overrun_hitch.parameters import CASES, DATUM, named
 
 
@@ -29,7 +37,11 @@ def sensitivity(
     samples: Annotated[int, typer.Option(help="A power of two; runs = samples x (parameters + 2).")] = 256,
     step: Annotated[float, typer.Option(help="Communication step in s.")] = 0.05,
     scheduler: SchedulerOption = None,
+    tls_ca_file: CaFileOption = None,
+    tls_cert: CertOption = None,
+    tls_key: KeyOption = None,
     workers: WorkersOption = None,
+    repair: RepairOption = False,
     fmu: FmuOption = None,
     time_limit: TimeLimitOption = 60.0,
     output: Annotated[Path, typer.Option(help="Folder for the files written.")] = Path("build/sensitivity"),
@@ -50,8 +62,10 @@ def sensitivity(
     plan = plan_variation(base, variation, chosen_fmu(fmu), "sensitivity", communication_step=step)
     stem = output / file_stem(name)
     store = stem.with_name(f"{stem.name}.zarr")
-    with terminal.counting("Running") as told:
-        sweep = run_plan(plan, store, scheduler=scheduler, workers=workers, time_limit=time_limit, progress=told)
+    with access(scheduler, tls_ca_file, tls_cert, tls_key), terminal.counting("Running") as told:
+        sweep = run_plan(
+            plan, store, scheduler=scheduler, workers=workers, repair=repair, time_limit=time_limit, progress=told
+        )
     with terminal.patience("Analysing"):
         found = analysed(sweep, base, variation)
     title = f"{changed[:1].upper()}{changed[1:]}: every parameter by {spread:.0%} to either side"

@@ -7,19 +7,28 @@ from typing import Annotated
 
 import typer
 
+from overrun_hitch.commands.cluster import (
+    CaFileOption,
+    CertOption,
+    KeyOption,
+    SchedulerOption,
+    WorkersOption,
+    access,
+)
 from overrun_hitch.commands.options import FmuOption, TimeLimitOption, chosen_fmu, file_stem
 from overrun_hitch.parameters import HitchError
 
-SchedulerOption = Annotated[
-    str | None, typer.Option(metavar="ADDRESS", help="A running Dask scheduler (tcp://host:8786).")
-]
-WorkersOption = Annotated[int | None, typer.Option(help="Processes on this machine (one for each core).")]
+RepairOption = Annotated[bool, typer.Option("--repair", help="Run again exactly what is damaged in the store.")]
 
 
 def sweep(
     spec: Annotated[Path, typer.Argument(metavar="SPEC.toml", help="What to run: see docs/sweep.md.")],
     scheduler: SchedulerOption = None,
+    tls_ca_file: CaFileOption = None,
+    tls_cert: CertOption = None,
+    tls_key: KeyOption = None,
     workers: WorkersOption = None,
+    repair: RepairOption = False,
     map_: Annotated[
         list[str] | None,
         typer.Option("--map", metavar="METRIC", help="Draw this metric over the two axes of the grid."),
@@ -49,8 +58,10 @@ def sweep(
         sweep_figures.check_map(plan, metric)
     stem = output / file_stem(asked.name)
     store = stem.with_name(f"{stem.name}.zarr")
-    with terminal.counting("Running") as told:
-        result = run_plan(plan, store, scheduler=scheduler, workers=workers, time_limit=time_limit, progress=told)
+    with access(scheduler, tls_ca_file, tls_cert, tls_key), terminal.counting("Running") as told:
+        result = run_plan(
+            plan, store, scheduler=scheduler, workers=workers, repair=repair, time_limit=time_limit, progress=told
+        )
     paths = [store]
     for metric in map_ or ():
         paths += traces.save(sweep_figures.draw_map(result, metric), stem.with_name(f"{stem.name}-{metric}"))

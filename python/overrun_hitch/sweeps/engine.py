@@ -24,15 +24,16 @@ from distributed.utils import silence_logging_cmgr
 from overrun_hitch.fmu.settings import TIME_LIMIT, checked_time_limit
 from overrun_hitch.parameters import HitchError
 from overrun_hitch.sweeps.job import Batch, Done, Job
+from overrun_hitch.sweeps.layout import FAILED, MISSING
 from overrun_hitch.sweeps.local_crew import LocalCrew
 from overrun_hitch.sweeps.plan import Plan
 from overrun_hitch.sweeps.planner import planned
+from overrun_hitch.sweeps.remote import connected, own_version, run_here
 from overrun_hitch.sweeps.spec import SweepSpec, read_spec
-from overrun_hitch.sweeps.store import FAILED, MISSING, SweepStore, opened_store, read_sweep
+from overrun_hitch.sweeps.store import SweepStore, opened_store, read_sweep
 from overrun_hitch.sweeps.worker import Runners, run_batch
 
 AHEAD = 2  # batches for each thread of a worker: one under way, one at hand
-PATIENCE = 10.0  # s, for a scheduler to answer, or to answer again
 WORKERS_PATIENCE = 60.0  # s, for the first worker
 WORKER_DIED = "the worker process died in this run, and again when it was repeated"
 
@@ -46,14 +47,16 @@ def sweep(
     fmus: Sequence[Path] = (),
     scheduler: str | None = None,
     workers: int | None = None,
+    repair: bool = False,
     time_limit: float = TIME_LIMIT,
     progress: Progress = lambda done, failed, runs: None,
 ) -> xr.Dataset:
     """Run what is missing of the sweep in the Zarr `store` and return the whole, see store.read_sweep.
 
     spec: a SweepSpec, its keywords or a TOML file. fmus: the files to run where the spec names none; ours, if it is
-    empty too. scheduler: the address of a Dask scheduler ("tcp://host:8786"), on whose workers this package is
-    installed; else `workers` processes (one for each core) on this machine. time_limit: what a run may take, in s.
+    empty too. scheduler: the address of a Dask scheduler ("tls://host:8786"), on whose workers this package is
+    installed (certificates are those of Dask's configuration); else `workers` processes (one for each core) on this
+    machine. repair: run again what is damaged in the store, which else is an error. time_limit: of a run, in s.
     HitchError for whatever is wrong with the spec or the store, before the first run; a run that fails is recorded.
     """
     if isinstance(spec, Path):
@@ -65,6 +68,7 @@ def sweep(
         store,
         scheduler=scheduler,
         workers=workers,
+        repair=repair,
         time_limit=time_limit,
         progress=progress,
     )
@@ -76,6 +80,7 @@ def run_plan(
     *,
     scheduler: str | None = None,
     workers: int | None = None,
+    repair: bool = False,
     time_limit: float = TIME_LIMIT,
     progress: Progress,
 ) -> xr.Dataset:
@@ -83,7 +88,7 @@ def run_plan(
     if workers is not None and not 1 <= workers <= 1000:
         raise HitchError(f"workers = {workers} is not allowed; allowed: 1 to 1000 processes")
     limit = checked_time_limit(time_limit)
-    with opened_store(store, plan) as opened:
+    with opened_store(store, plan, repair=repair) as opened:
         tally = _Tally(opened, plan.runs, progress)
         if opened.missing():
             if scheduler is None:
@@ -133,17 +138,7 @@ class _Tally:
 
 @contextmanager
 def _client(scheduler: str) -> Iterator[Client]:
-    with silence_logging_cmgr(logging.CRITICAL), _connected(scheduler) as client:  # what the user is to know, we say
-        yield client
-
-
-@contextmanager
-def _connected(scheduler: str) -> Iterator[Client]:
-    try:
-        client = Client(scheduler, timeout=PATIENCE, set_as_default=False)
-    except (OSError, ValueError, TimeoutError) as error:
-        raise HitchError(f"no Dask scheduler answers at {scheduler!r:.80}: {error}") from None
-    with client:
+    with silence_logging_cmgr(logging.CRITICAL), connected(scheduler) as client:  # what the user is to know, we say
         yield client
 
 
@@ -164,7 +159,7 @@ def _run_missing(crew: LocalCrew | _Crew, store: SweepStore, tally: _Tally) -> l
     for future in under_way:
         number = numbers.pop(future)
         try:
-            tally.write(number, future.result())
+            tally.write(number, crew.result(future))
         except KilledWorker:
             deadly.append(number)
         top_up()
@@ -196,7 +191,19 @@ class _Crew:
         return as_completed(loop=self._client.loop)
 
     def submit(self, batch: Batch) -> Future:
-        return self._client.submit(run_batch, self._name, batch, pure=False)
+        return self._client.submit(run_here, own_version(), run_batch, self._name, batch, pure=False)
+
+    def result(self, future: Future) -> Done:
+        """What came of a batch. KilledWorker; HitchError for what else went wrong there; errors of the network."""
+        try:
+            done: Done = future.result()
+        except (HitchError, KilledWorker):
+            raise
+        except Exception as error:
+            if future.status != "error":
+                raise
+            raise HitchError(f"a worker can't run its batch: {type(error).__name__}: {error}") from None
+        return done
 
     def one_by_one(self, batch: Batch) -> Done:
         """The batch, with a message for each run in which a worker dies."""
@@ -204,7 +211,6 @@ class _Crew:
 
     def _one(self, run: Batch) -> Done:
         try:
-            done: Done = self.submit(run).result()
+            return self.result(self.submit(run))
         except KilledWorker:
             return Done.failed(self._job, WORKER_DIED)
-        return done

@@ -40,6 +40,10 @@ class LocalCrew:
         """Run it in the next thread that is free."""
         return self._threads.submit(lambda: self._own.guests.run(batch))
 
+    def result(self, future: Future[Done]) -> Done:
+        """What came of a batch."""
+        return future.result()
+
     def _equip(self, job: Job, time_limit: float) -> None:
         """In each thread, where it starts."""
         self._own.guests = Guests(job, time_limit)

@@ -1,22 +1,16 @@
 """The results of a sweep on disk: a Zarr store that is filled batch by batch and may be left at any moment.
 
-A batch is a chunk of every array. Its `status` is written last, so a batch counts only when all of it is there; what
-was interrupted is run again and overwritten. Zarr puts each chunk in place whole, by renaming a file.
+A batch is a chunk of every array. The list of its checksums is written last, so a batch counts only when all of it is
+there and stays what it was; what was interrupted is run again and overwritten.
 """
 
 from __future__ import annotations
 
-import json
 import math
-import os
-import shutil
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
-import dask.array as da
 import locket
 import numpy as np
 import xarray as xr
@@ -26,25 +20,29 @@ from numpy.typing import NDArray
 from overrun_hitch.measure.metrics import METRICS
 from overrun_hitch.parameters import HitchError
 from overrun_hitch.results import VARIABLES
+from overrun_hitch.sweeps import checksums, frame
 from overrun_hitch.sweeps.job import Batch, Done
-from overrun_hitch.sweeps.plan import STEP_BRAKE, Plan, differing
-
-MISSING, FINISHED, FAILED = range(3)  # status of a run
-LONGEST_MESSAGE = 300  # characters
-POINTS_A_BATCH = 50_500  # 4 MB of trajectories; 0.2 s of work with one cheap metric, 0.9 s with all
-RUNS_A_BATCH = 500
-WRITTEN = ["status", "message"]  # from the beginning
-LEAST_BATCHES = 16  # so that several workers have something to do
+from overrun_hitch.sweeps.layout import FAILED, FINISHED, LONGEST_MESSAGE, MISSING, batch_files
+from overrun_hitch.sweeps.plan import Plan
 
 
 class SweepStore:
-    """A store that is open for the batches of one plan."""
+    """A store that is open for the batches of one plan, and whose frame is whole."""
 
-    def __init__(self, folder: Path, plan: Plan) -> None:
-        self._plan = plan
+    def __init__(self, folder: Path, plan: Plan, *, repair: bool) -> None:
+        """HitchError if batches are damaged; `repair`: these count as missing. OSError."""
+        self._folder, self._plan = folder, plan
         self._group = zarr.open_group(str(folder), mode="r+")
-        self._arrays = {str(name): self._group[name] for name in self._group}
+        self._arrays = {str(name): self._group[name] for name in self._group.array_keys()}
         self._size = int(self._arrays["status"].chunks[0])
+        lost = checksums.damaged(folder, map(str, range(self.batches)))
+        files = [file for damaged in lost.values() for file in damaged]
+        if files and not repair:
+            raise frame.damage(folder, files)
+        for number, damaged in lost.items():
+            if damaged:
+                (folder / checksums.FOLDER / number).unlink()
+        self._status: NDArray[np.int8] = self._status_of_whole()
 
     @property
     def batches(self) -> int:
@@ -52,13 +50,12 @@ class SweepStore:
         return math.ceil(self._plan.runs / self._size)
 
     def status(self) -> NDArray[np.int8]:
-        """(runs,): MISSING, FINISHED or FAILED."""
-        return np.asarray(self._arrays["status"][:], dtype=np.int8)
+        """(runs,): FINISHED or FAILED; MISSING for all runs of a batch that is not whole."""
+        return self._status
 
     def missing(self) -> list[int]:
         """The numbers of the batches that are not there yet."""
-        status = self.status()
-        return [number for number in range(self.batches) if (status[self._place(number)] == MISSING).any()]
+        return [number for number in range(self.batches) if (self._status[self._place(number)] == MISSING).any()]
 
     def batch(self, number: int) -> Batch:
         """What is to be run."""
@@ -69,38 +66,50 @@ class SweepStore:
         return Batch(plan.fmu[place], plan.profile[place], values)
 
     def write(self, number: int, done: Done) -> None:
-        """Put what came of a batch in its place."""
+        """Put what came of a batch in its place, and on disk. HitchError if that is not possible."""
         place = self._place(number)
-        for name, values in {**done.metrics, **done.trajectories}.items():
-            self._arrays[name][place] = values
-        self._arrays["message"][place] = np.array([text[:LONGEST_MESSAGE] for text in done.messages], dtype="U")
-        self._arrays["status"][place] = np.array([FAILED if text else FINISHED for text in done.messages], np.int8)
+        status = np.array([FAILED if text else FINISHED for text in done.messages], np.int8)
+        messages = np.array([text[:LONGEST_MESSAGE] for text in done.messages], dtype="U")
+        files = batch_files(self._plan, number)
+        try:
+            for file in files:  # zarr may read what it is to overwrite, and what is there may be torn
+                (self._folder / file).unlink(missing_ok=True)
+            for name, values in {**done.metrics, **done.trajectories, "message": messages, "status": status}.items():
+                self._arrays[name][place] = values
+            checksums.seal(self._folder, str(number), [file for file in files if (self._folder / file).exists()])
+        except OSError as error:
+            count = int((self._status != MISSING).sum())
+            raise HitchError(
+                f"cannot write {self._folder}: {error.strerror or error}; {count} of {self._plan.runs} runs are in it, "
+                "and the same command goes on from there"
+            ) from None
+        self._status[place] = status
+
+    def _status_of_whole(self) -> NDArray[np.int8]:
+        status = np.full(self._plan.runs, MISSING, dtype=np.int8)
+        for number in range(self.batches):
+            if (self._folder / checksums.FOLDER / str(number)).exists():
+                status[self._place(number)] = self._arrays["status"][self._place(number)]
+        return status
 
     def _place(self, number: int) -> slice:
         return slice(number * self._size, min((number + 1) * self._size, self._plan.runs))
 
 
 @contextmanager
-def opened_store(folder: Path, plan: Plan) -> Iterator[SweepStore]:
-    """The store in `folder`, made if there is none, for this process alone.
+def opened_store(folder: Path, plan: Plan, *, repair: bool = False) -> Iterator[SweepStore]:
+    """The store in `folder`, made if there is none, for this process alone; `repair`: what is damaged is missing.
 
-    HitchError if the folder holds anything else or another sweep, can't be written, or another process is at it.
+    HitchError if the folder holds anything else or another sweep, is damaged, can't be read or written, or another
+    process is at it.
     """
-    lock = folder.with_name(f".{folder.name}.lock")
-    try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        with locket.lock_file(str(lock), timeout=0):
+    with _locked(folder):
+        with _told(folder):
             if not folder.exists():
-                _create(folder, plan)
-            _check(folder, plan)
-            try:
-                yield SweepStore(folder, plan)
-            finally:
-                lock.unlink()
-    except locket.LockError:
-        raise HitchError(f"{folder} is being written by another sweep; allowed: one at a time") from None
-    except OSError as error:
-        raise HitchError(f"cannot write {folder}: {error.strerror or error}") from None
+                frame.create(folder, plan)
+            frame.check(folder, plan, repair=repair)
+            store = SweepStore(folder, plan, repair=repair)
+        yield store
 
 
 def read_sweep(folder: Path) -> xr.Dataset:
@@ -114,73 +123,27 @@ def read_sweep(folder: Path) -> xr.Dataset:
     return whole
 
 
-def _check(folder: Path, plan: Plan) -> None:
+@contextmanager
+def _locked(folder: Path) -> Iterator[None]:
+    lock = folder.with_name(f".{folder.name}.lock")
+    with _told(folder):
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        held = locket.lock_file(str(lock), timeout=0)
+        try:
+            held.acquire()
+        except locket.LockError:
+            raise HitchError(f"{folder} is being written by another sweep; allowed: one at a time") from None
     try:
-        attributes = dict(zarr.open_group(str(folder), mode="r").attrs)
-        identity = json.loads(str(attributes["sweep"]))
-    except (KeyError, ValueError, FileNotFoundError, NotADirectoryError):
-        raise HitchError(f"{folder} is there and holds no sweep; allowed: a new place, or the same sweep's") from None
-    names = differing(plan.identity, identity)
-    if names:
-        raise HitchError(
-            f"{folder} holds another sweep, which differs in {', '.join(names)}; allowed: a new place, or the same spec"
-        )
-
-
-def _create(folder: Path, plan: Plan) -> None:
-    """An empty store, at its place only when it is whole."""
-    temporary = Path(tempfile.mkdtemp(dir=folder.parent, prefix=f".{folder.name}-"))
-    try:
-        size = max(1, min(RUNS_A_BATCH, POINTS_A_BATCH // len(plan.job.points), math.ceil(plan.runs / LEAST_BATCHES)))
-        empty = _empty(plan, size)
-        fresh = temporary / "new"
-        _write(empty.drop_vars(WRITTEN), fresh, mode="w-", compute=False)
-        # What is not written reads as NaN. Where that is no value, zarr gives anything at all: so it is written.
-        _write(empty[WRITTEN].reset_coords(drop=True), fresh, mode="a", write_empty_chunks=True)
-        os.replace(fresh, folder)
+        yield
     finally:
-        shutil.rmtree(temporary)
+        lock.unlink(missing_ok=True)
+        held.release()
 
 
-def _empty(plan: Plan, size: int) -> xr.Dataset:
-    """The dataset without results; results are in chunks of `size` runs."""
-    job, runs = plan.job, plan.runs
-    data: dict[str, Any] = {
-        name: ("run", da.full(runs, np.nan, chunks=size), _attributes(METRICS[name].unit, METRICS[name].description))
-        for name in job.metrics
-    }
-    shape = (runs, len(job.points))
-    for name in job.trajectories:
-        whole = da.full(shape, np.nan, chunks=(size, shape[1]))
-        data[name] = (("run", "time"), whole, _attributes(*VARIABLES[name]))
-    meanings = {"flag_values": [MISSING, FINISHED, FAILED], "flag_meanings": "missing finished failed"}
-    data["status"] = (
-        "run",
-        da.zeros(runs, chunks=size, dtype=np.int8),
-        {"long_name": "what came of the run", **meanings},
-    )
-    text = da.full(runs, "", chunks=size, dtype=f"U{LONGEST_MESSAGE}")
-    data["message"] = ("run", text, {"long_name": "why the run failed"})
-    fmus = np.array([fmu.name for fmu in job.fmus])
-    profiles = np.array([profile.name for profile in job.profiles])
-    coordinates: dict[str, Any] = {
-        name: ("run", column, _attributes(plan.quantities[name].unit, plan.quantities[name].description))
-        for name, column in plan.columns.items()
-    }
-    coordinates["fmu"] = ("run", fmus[plan.fmu], {"long_name": "FMU that was run"})
-    coordinates["profile"] = ("run", profiles[plan.profile], {"long_name": f"inputs over time, or {STEP_BRAKE}"})
-    if job.trajectories:
-        coordinates["time"] = ("time", job.points, _attributes("s", "time"))
-    attributes = {"title": plan.name, "sweep": json.dumps(plan.identity), **job.fixed}
-    return xr.Dataset(data, coordinates, attributes)
-
-
-def _write(part: xr.Dataset, folder: Path, **options: Any) -> None:
-    fills = {str(name): np.nan if array.dtype.kind == "f" else None for name, array in part.data_vars.items()}
-    encoding = {name: {"_FillValue": fill} for name, fill in fills.items()}
-    # Format 2, which every version of zarr that we may meet reads and writes.
-    part.to_zarr(str(folder), consolidated=False, zarr_format=2, encoding=encoding, **options)
-
-
-def _attributes(unit: str, description: str) -> dict[str, str]:
-    return {"units": unit, "long_name": description}
+@contextmanager
+def _told(folder: Path) -> Iterator[None]:
+    """What the system refuses, as a HitchError."""
+    try:
+        yield
+    except OSError as error:
+        raise HitchError(f"cannot read or write {folder}: {error.strerror or error}") from None

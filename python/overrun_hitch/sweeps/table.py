@@ -14,7 +14,7 @@ from rich.console import Console
 from overrun_hitch.measure.metrics import METRICS
 from overrun_hitch.measure.oscillation import FITS
 from overrun_hitch.show.table import Column, Numbers, Row, console, show_written, table
-from overrun_hitch.sweeps.store import FAILED
+from overrun_hitch.sweeps.layout import FAILED
 
 Floats = NDArray[np.float64]
 
