@@ -23,6 +23,7 @@ import xarray as xr
 import zarr
 from numpy.typing import NDArray
 
+from overrun_hitch.decimals import decimals
 from overrun_hitch.measure.metrics import METRICS
 from overrun_hitch.parameters import HitchError
 from overrun_hitch.results import VARIABLES
@@ -170,7 +171,7 @@ def _empty(plan: Plan, size: int) -> xr.Dataset:
     coordinates["fmu"] = ("run", fmus[plan.fmu], {"long_name": "FMU that was run"})
     coordinates["profile"] = ("run", profiles[plan.profile], {"long_name": f"inputs over time, or {STEP_BRAKE}"})
     if job.trajectories:
-        coordinates["time"] = ("time", job.points, _attributes("s", "time"))
+        coordinates["time"] = ("time", np.array(decimals(job.points)), _attributes("s", "time"))
     attributes = {"title": plan.name, "sweep": json.dumps(plan.identity), **job.fixed}
     return xr.Dataset(data, coordinates, attributes)
 
