@@ -14,6 +14,8 @@ import fmpy
 from overrun_hitch.fmu.messages import one_line
 from overrun_hitch.parameters import HitchError
 
+UNWRITABLE = "the working directory's name has letters that this locale cannot write; allowed: UTF-8, as LC_ALL=C.UTF-8"
+
 
 @contextmanager
 def unpacked(fmu: Path, within: Path | None = None) -> Iterator[tuple[Any, str]]:
@@ -30,6 +32,8 @@ def unpacked(fmu: Path, within: Path | None = None) -> Iterator[tuple[Any, str]]
             raise HitchError(f"{fmu} is broken: an FMU is a zip archive") from None
         except KeyError:
             raise HitchError(f"{fmu} is broken: it has no modelDescription.xml") from None
+        except UnicodeEncodeError:  # lxml's, which puts a file's name after that of the working directory
+            raise HitchError(UNWRITABLE) from None
         except Exception as error:  # fmpy raises bare Exception, and lxml its own
             raise HitchError(f"{fmu} is broken: {one_line(error)}") from None
         _check_kind(fmu, description, names)
@@ -40,6 +44,14 @@ def _check_kind(fmu: Path, description: Any, names: list[str]) -> None:
     if description.fmiVersion != "2.0" or description.coSimulation is None:
         raise HitchError(f"{fmu} has FMI {description.fmiVersion}: an FMI 2.0 unit for co-simulation is needed")
     library = f"{description.coSimulation.modelIdentifier}{fmpy.sharedLibraryExtension}"
-    if f"binaries/{fmpy.platform}/{library}" not in names:
+    place = f"binaries/{fmpy.platform}/"
+    if f"{place}{library}" not in names:
+        others = [
+            name.removeprefix(place)
+            for name in names
+            if name.startswith(place) and name.endswith(fmpy.sharedLibraryExtension)
+        ]
+        if others:
+            raise HitchError(f"{fmu} has no {library}, the library of its modelIdentifier; it has {', '.join(others)}")
         there = sorted({name.split("/")[1] for name in names if name.startswith("binaries/") and name.count("/") == 2})
         raise HitchError(f"{fmu} has no {library} for {fmpy.platform}; it has {', '.join(there) or 'no binaries'}")

@@ -98,7 +98,7 @@ BAD = [
     ("grid = {C = {min = 5.0, max = 5.0, count = 3}}", "grid.C is an empty range, from 5 to 5"),
     ("grid = {C = {min = 5.0, max = 9.0, count = 1}}", "grid.C.count = 1 is not allowed: input should be greater"),
     ("grid = {C = {min = 5.0, max = 9.0}}", "grid.C.count is not allowed: field required"),
-    ("grid = {C = {min = 5.0, max = 9.0, cuont = 3, count = 3}}", "there is no setting in grid.C 'cuont'; did you mean count? allowed:"),
+    ("grid = {C = {min = 5.0, max = 9.0, cuont = 3, count = 3}}", "setting in grid.C 'cuont'; did you mean count?"),
     ("grid = {C = {min = 0.0, max = 9.0, count = 3, scale = 'log'}}", "grid.C: min = 0 is not allowed on a log scale"),
     ("grid = {C = {min = 0.0, max = 9.0, count = 2000000}}", "grid.C: count = 2000000 is not allowed"),
     ("runs = {C = [1.0, 2.0], k = [1.0]}", "the columns of runs must have equal lengths; C has 2, k has 1"),
