@@ -32,7 +32,7 @@ from .equations.initialize import initialize
 from .equations.jacobian import differentiate
 from .equations.lower import lower
 from .equations.sort import sort
-from .fmu.archive import write_fmu
+from .fmu.archive import check_output, write_fmu
 from .fmu.binaries import binaries
 from .fmu.compile import named_platforms
 from .fmu.contents import contents
@@ -60,6 +60,7 @@ def build(
     Raises BuildError; then nothing is written.
     """
     chosen = named_platforms(platforms)
+    check_output(output)
     identifier = model_identifier(class_name)
     progress("reading Modelica")
     flat = flatten(modelica, class_name)

@@ -10,6 +10,8 @@ import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 
+from ..errors import BuildError
+
 EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest time that a zip can tell
 
 
@@ -21,10 +23,28 @@ def content_token(files: Mapping[str, bytes]) -> str:
     return f"{{{uuid.UUID(bytes=digest.digest()[:16])}}}"
 
 
+def check_output(output: Path) -> None:
+    """BuildError where no file can be ``output``; folders on the way there need not be there yet."""
+    if output.is_dir():
+        raise BuildError(f"{output} is a folder; name the FMU to write, such as {output / 'Model.fmu'}")
+    if output.exists() and not output.is_file():
+        raise BuildError(f"{output} is no file that could be replaced; name the FMU to write")
+    there = next(folder for folder in output.absolute().parents if folder.exists())
+    if not there.is_dir():
+        raise BuildError(f"cannot write {output}: {there} is no folder")
+
+
 def write_fmu(output: Path, files: Mapping[str, bytes]) -> None:
-    """Write ``files`` (path in the archive to content) to ``output``: all of it or nothing."""
-    output.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(prefix=f".{output.name}.", dir=output.parent)
+    """Write ``files`` (path in the archive to content) to ``output``: all of it, or nothing and BuildError."""
+    try:
+        output.parent.mkdir(parents=True, exist_ok=True)
+        _replace(output, files)
+    except OSError as error:
+        raise BuildError(f"cannot write {output}: {error.strerror or error}") from None
+
+
+def _replace(output: Path, files: Mapping[str, bytes]) -> None:
+    handle, temporary = tempfile.mkstemp(prefix=".fmu_build-", dir=output.parent)
     try:
         with os.fdopen(handle, "wb") as stream, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
             for name in sorted(files):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import platform as machine
+import shlex
 import shutil
 import subprocess
 import tempfile
@@ -95,15 +96,24 @@ def zig_compiler() -> list[str] | None:
 
 
 def compiler() -> list[str]:
-    """This machine's C compiler: the environment variable CC if it is set, else cc, else zig's."""
-    command = os.environ.get("CC", "cc").split()
+    """This machine's C compiler: the environment variable CC, a path or a command with options, else cc, else zig's."""
+    text = os.environ.get("CC") or "cc"
+    command = [text] if shutil.which(text) else _words("CC", text)
     if command and shutil.which(command[0]) is not None:
         return command
     zig = zig_compiler()
-    if zig is None or "CC" in os.environ:
-        name = command[0] if command else "CC"
+    if zig is None or os.environ.get("CC"):
+        name = command[0] if command else text
         raise BuildError(f"no C compiler: {name!r} was not found; install gcc or clang, or set CC to a C11 compiler")
     return zig
+
+
+def _words(variable: str, text: str) -> list[str]:
+    """The words of an environment variable; in quotes they may hold spaces, as in a shell."""
+    try:
+        return shlex.split(text, posix=os.name != "nt")  # where a backslash is no quote
+    except ValueError as error:
+        raise BuildError(f"{variable} is {text!r}, which is no command: {error}") from None
 
 
 def compile_library(folder: Path, library: Path, platform: Platform) -> None:
@@ -125,6 +135,8 @@ def compile_library(folder: Path, library: Path, platform: Platform) -> None:
             command = [*_command(platform, library.name), "-I.", unit.as_posix()]
             command += ["-o", linked.as_posix(), *([] if platform.suffix == ".dll" else ["-lm"])]
             _run(command, folder, environment)
+            if not (folder / linked).is_file():
+                raise BuildError(f"{command[0]} made no library: set CC to a C11 compiler")
             library.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(folder / linked, library)
         finally:
@@ -134,7 +146,7 @@ def compile_library(folder: Path, library: Path, platform: Platform) -> None:
 def _command(platform: Platform, library: str) -> list[str]:
     linking = {".dylib": [f"-Wl,-install_name,@rpath/{library}"], ".so": [*ELF]}.get(platform.suffix, [])
     if platform.zig_target is None:
-        return [*compiler(), *OPTIONS, *os.environ.get("CFLAGS", "").split(), *linking]
+        return [*compiler(), *OPTIONS, *_words("CFLAGS", os.environ.get("CFLAGS", "")), *linking]
     zig = zig_compiler()
     if zig is None:
         raise BuildError(f"platform {platform.name}: the package ziglang, which compiles for it, is not installed")

@@ -6,9 +6,11 @@ and it reads every .mo file beside the one it is given, as Modelica's directory 
 
 from __future__ import annotations
 
+import difflib
 import re
 import shutil
 import tempfile
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import rumoca
@@ -81,5 +83,25 @@ def _located_message(text: str, entry: Path, class_name: str) -> str:
                 if word.search(line.partition("//")[0]):
                     return f"{file}:{number}: {message}"
     if "resolve/parse failed" in message:
-        return f"{entry}: no class {class_name} in it"
+        meant = _alike(class_name, files)
+        return f"{entry}: no class {class_name} in it{f'; did you mean {meant}?' if meant else ''}"
     return f"{entry}: {class_name}: {message}"
+
+
+def _alike(class_name: str, files: Sequence[Path]) -> str:
+    """The classes of these files that were hardly meant otherwise: called so elsewhere, or almost so."""
+    classes = {name.casefold(): name for file in files for name in _classes(file.read_text(encoding="utf-8"))}
+    asked = class_name.casefold()
+    called_so = [name for name in classes if name.rpartition(".")[2] == asked.rpartition(".")[2]]
+    close = called_so or difflib.get_close_matches(asked, classes, n=3, cutoff=0.8)
+    return " or ".join(classes[name] for name in close[:3])
+
+
+def _classes(text: str) -> Iterator[str]:
+    """Full names of the class in a file and of those in it, as far as they can be told without a parser."""
+    within = re.search(r"^\s*within\s+([\w.]+)\s*;", text, re.MULTILINE)
+    declared = r"^\s*(?:partial\s+)?(?:model|block|class|package)\s+(\w+)"
+    first, *others = re.findall(declared, text, re.MULTILINE) or [""]
+    outer = f"{within[1]}.{first}" if within else first
+    yield outer
+    yield from (f"{outer}.{other}" for other in others)

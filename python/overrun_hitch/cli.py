@@ -1,16 +1,18 @@
 """The command line `hitch`.
 
-Exit status: 0 agreement, 1 what is compared differs, 2 bad input, 70 a fault of ours, 130 interrupted.
+Exit status: 0 agreement, 1 what is compared differs, 2 bad input or no place for output, 70 a fault of ours, 130
+interrupted, 141 nobody reads the output any more.
 """
 
 from __future__ import annotations
 
+import os
 import sys
 import traceback
 from collections.abc import Sequence
 from importlib.metadata import PackageNotFoundError
 from importlib.metadata import version as installed_version
-from typing import Annotated
+from typing import Annotated, TextIO
 
 import typer
 
@@ -37,17 +39,34 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status; bad input costs one line on stderr."""
     try:
         status = app(args=arguments, prog_name="hitch", standalone_mode=False)
-        sys.stdout.flush()
+        print(end="", flush=True)  # which knows that there may be no standard output at all
     except (HitchError, typer.TyperException) as error:
         message = error.format_message() if isinstance(error, typer.TyperException) else str(error)
-        print(f"hitch: {' '.join(message.split())}", file=sys.stderr)
-        return 2
+    except (BrokenPipeError, SystemExit):  # the latter is what typer makes of the former
+        _arrives("", sys.stdout)
+        return 141  # as a shell tells of a tool that SIGPIPE has ended
+    except OSError as error:
+        place = error.filename or (None if _arrives("", sys.stdout) else "standard output")
+        message = ": ".join(filter(None, [place, error.strerror or str(error)]))
     except (KeyboardInterrupt, typer.Abort):
         return 130
     except Exception:  # Python's own status for it, 1, would say that something differs
         traceback.print_exc()
         return 70  # EX_SOFTWARE of sysexits.h
-    return status if isinstance(status, int) else 0
+    else:
+        return status if isinstance(status, int) else 0
+    _arrives(f"hitch: {' '.join(message.split())}", sys.stderr)
+    return 2
+
+
+def _arrives(line: str, stream: TextIO) -> bool:
+    """Print, and say whether it arrives. Where it does not, the rest is dropped: Python would try again at its end."""
+    try:
+        print(line, file=stream, flush=True)
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+        return False
+    return True
 
 
 def _show_version(wanted: bool) -> None:

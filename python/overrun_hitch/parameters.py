@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import difflib
 import math
+import re
 from collections.abc import Iterable, Mapping
 from typing import Any, Literal
 
@@ -63,7 +64,7 @@ class Quantities(BaseModel):
         """The allowed range of `name` in words: "a finite number, at least 1 kg"."""
         words = {"ge": "at least", "gt": "greater than", "le": "at most", "lt": "less than"}
         limits = [
-            f"{words[kind]} {getattr(limit, kind):g} {cls.unit(name)}".strip()
+            f"{words[kind]} {with_unit(getattr(limit, kind), cls.unit(name))}"
             for limit in cls.model_fields[name].metadata
             for kind in words
             if hasattr(limit, kind)
@@ -87,7 +88,7 @@ class Quantities(BaseModel):
         if error["type"] == "missing":
             return f"{name} is missing: {cls.description(name)} must be {cls.allowed(name)}"
         try:
-            shown = f"{float(error['input']):g} {cls.unit(name)}".strip()
+            shown = with_unit(float(error["input"]), cls.unit(name))
         except (TypeError, ValueError, OverflowError):
             shown = f"{error['input']!r:.40}"
         return f"{name} = {shown} is not allowed: {cls.description(name)} must be {cls.allowed(name)}"
@@ -104,12 +105,26 @@ def quantity(
     return Field(default, description=description, json_schema_extra=extra, **limits)  # type: ignore[call-overload]
 
 
+def with_unit(value: float, unit: str) -> str:
+    """ "500 N.s/m"; a number alone where the unit is none or 1."""
+    return f"{value:g} {unit}".removesuffix(" 1").rstrip()
+
+
 def unknown(kind: str, name: str, names: Iterable[str]) -> str:
-    """One line saying that there is no such `kind`, the closest of the allowed names first."""
+    """One line saying that there is no such `kind`, which was hardly meant otherwise, and which are allowed."""
     allowed = list(names)
-    close = difflib.get_close_matches(name, allowed, n=3, cutoff=0.5)
-    listed = ", ".join(close + [other for other in allowed if other not in close])
-    return f"there is no {kind} {name!r:.40}; allowed: {listed}"
+    close = _alike(name, allowed)
+    meant = f" did you mean {' or '.join(close)}?" if close else ""
+    return f"there is no {kind} {name!r:.40};{meant} allowed: {', '.join(allowed)}"
+
+
+def _alike(name: str, names: list[str]) -> list[str]:
+    """Those which differ in case and signs alone; if there are none, up to three spellings that look like it."""
+    plain = {other: re.sub(r"[\W_]", "", other).casefold() for other in names}
+    asked = re.sub(r"[\W_]", "", name).casefold()
+    close = difflib.get_close_matches(asked, set(plain.values()), n=3, cutoff=0.6)
+    wanted = {asked} & set(close) or set(close)
+    return [other for other in names if plain[other] in wanted]
 
 
 # Far beyond any vehicle. From there on double precision loses what forces follow from, a slip or a compression, and a

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from overrun_hitch.decimals import decimals
 from overrun_hitch.parameters import HitchError, Parameters, Scenario
 
 if TYPE_CHECKING:
@@ -80,10 +81,13 @@ def values(result: xr.Dataset, name: str) -> Floats:
 
 
 def columns(result: xr.Dataset) -> dict[str, Floats]:
-    """Time and variables (n,) by their names with units, "time [s]": the columns of a CSV file."""
-    return {
-        f"{name} [{result[name].attrs['units']}]": values(result, str(name)) for name in ("time", *result.data_vars)
-    }
+    """Time and variables (n,) by their names with units, "time [s]": the columns of a CSV file.
+
+    Times, which are multiples of the step, without what rounding has made of them.
+    """
+    units = {str(name): result[name].attrs["units"] for name in ("time", *result.data_vars)}
+    table = {name: values(result, name) for name in units} | {"time": np.array(decimals(values(result, "time")))}
+    return {f"{name} [{units[name]}]": table[name] for name in units}
 
 
 def read_csv(path: Path) -> xr.Dataset:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from overrun_hitch.decimals import decimals
 from overrun_hitch.parameters import HitchError
 
 MOST = 10_000  # values of one option
@@ -32,7 +33,7 @@ def numbers(option: str, text: str, between: Callable[[float, float], list[float
 
 def evenly(low: float, high: float, count: int) -> list[float]:
     """`count` values from `low` to `high`, both included, at even distances."""
-    return [*(low + (high - low) * i / (count - 1) for i in range(count - 1)), high]
+    return [*decimals(low + (high - low) * i / (count - 1) for i in range(count - 1)), high]
 
 
 def doubling(low: float, high: float) -> list[float]:

@@ -23,6 +23,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from overrun_hitch.comparison.theory import shunting
+from overrun_hitch.decimals import decimals
 from overrun_hitch.experiments.step_brake import brake
 from overrun_hitch.fmu.settings import Settings
 from overrun_hitch.fmu.unit import AnyUnit
@@ -45,7 +46,7 @@ class Allowed(Quantities):
     """How far a trace may be from A's."""
 
     funnel: float = quantity(1e-3, "", "half height of the funnel, relative to the variable's range", gt=0.0, le=1.0)
-    funnel_time: float = quantity(1e-4, "s", "half width of the funnel", ge=0.0)
+    funnel_time: float = quantity(1e-4, "s", "half width of the funnel", ge=0.0, le=1.0)
 
 
 @dataclass(frozen=True)
@@ -135,7 +136,7 @@ def funnel_around(reference: xr.Dataset, run: xr.Dataset, name: str, allowed: Al
 
 
 def _distance(reference: xr.Dataset, run: xr.Dataset, name: str, allowed: Allowed) -> Distance:
-    time, a, b = values(reference, "time"), values(reference, name), values(run, name)
+    time, a, b = decimals(values(reference, "time")), values(reference, name), values(run, name)
     unit, _ = VARIABLES[name]
     if not np.isfinite([a, b]).all():
         return Distance(name, unit, *[math.nan] * 5)
@@ -145,10 +146,10 @@ def _distance(reference: xr.Dataset, run: xr.Dataset, name: str, allowed: Allowe
         variable=name,
         unit=unit,
         largest=float(distance.max()),
-        at=float(time[distance.argmax()]),
+        at=time[distance.argmax()],
         range=float(np.ptp(a)),
         outside=float(outside.max()),
-        leaves=float(time[(outside > 0.0).argmax()]) if outside.any() else math.nan,
+        leaves=time[(outside > 0.0).argmax()] if outside.any() else math.nan,
     )
 
 

@@ -23,6 +23,7 @@ from overrun_hitch.theory.steady import steady
 DURATION = 6.0  # s
 ONSET = 0.1  # s: the wheels have taken up the brake torque
 RELATIVE_TOLERANCE = 1e-9
+SHORTEST_STEP = 1e-5  # s: half a minute for each scheme
 LONGEST_STEP = 0.1  # s: longer ones see fewer than six points of an oscillation of 1.6 Hz
 
 
@@ -72,9 +73,10 @@ def study_coupling(
 
 
 def check_step(H: float) -> None:
-    """HitchError for a communication step (s) that is none, or longer than a tenth of a second."""
-    if not 0.0 < H <= LONGEST_STEP:
-        raise HitchError(f"H = {H:g} s is not allowed: the step must be greater than 0 s, at most {LONGEST_STEP:g} s")
+    """HitchError for a communication step (s) that is none, takes hours, or is longer than a tenth of a second."""
+    if not SHORTEST_STEP <= H <= LONGEST_STEP:
+        allowed = f"at least {SHORTEST_STEP:g} s, at most {LONGEST_STEP:g} s"
+        raise HitchError(f"H = {H:g} s is not allowed: the step must be {allowed}")
 
 
 def longest_stable_step(scheme: Scheme, parameters: Parameters, growth_rate: float) -> float:

@@ -20,7 +20,7 @@ from overrun_hitch.fmu.settings import Settings
 from overrun_hitch.fmu.unit import AnyUnit
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.measure.metrics import NEEDED, Traces, measured
-from overrun_hitch.parameters import HitchError, Parameters, Quantities, Scenario, quantity
+from overrun_hitch.parameters import HitchError, Parameters, Quantities, Scenario, quantity, with_unit
 from overrun_hitch.results import values
 from overrun_hitch.theory.linear import REBOUND_REACH, ShuntingMode, check_known, rebound_error, shunting_mode
 from overrun_hitch.theory.working_point import working_point
@@ -89,7 +89,7 @@ def smallest(parameters: Parameters, name: str, low: float, high: float, wanted:
     if not wanted.V_low < wanted.V_high:
         raise HitchError(f"speeds from {wanted.V_low:g} to {wanted.V_high:g} m/s are an empty range")
     if not low < high:
-        raise HitchError(f"{name} from {low:g} to {high:g} {Parameters.unit(name)} is an empty range")
+        raise HitchError(f"{name} from {low:g} to {with_unit(high, Parameters.unit(name))} is an empty range")
 
     def excess(value: float) -> float:
         return least_damping(parameters.changed({name: float(value)}), wanted)[0] - wanted.ratio
@@ -99,13 +99,13 @@ def smallest(parameters: Parameters, name: str, low: float, high: float, wanted:
     if np.ptp(found) <= SAME:
         raise HitchError(
             f"{name} has no influence: by linear theory the damping ratio is {found[0] + wanted.ratio:.4g} for all "
-            f"{name} from {low:g} to {high:g} {Parameters.unit(name)}"
+            f"{name} from {low:g} to {with_unit(high, Parameters.unit(name))}"
         )
     if not (found >= 0.0).any():
         best = int(found.argmax())
         raise HitchError(
-            f"no {name} from {low:g} to {high:g} {Parameters.unit(name)} gives a damping ratio of {wanted.ratio:g} at "
-            f"all speeds from {wanted.V_low:g} to {wanted.V_high:g} m/s; the most is "
+            f"no {name} from {low:g} to {with_unit(high, Parameters.unit(name))} gives a damping ratio of "
+            f"{wanted.ratio:g} at all speeds from {wanted.V_low:g} to {wanted.V_high:g} m/s; the most is "
             f"{found[best] + wanted.ratio:.4g} with {name} = {candidates[best]:.4g}"
         )
     first = int((found >= 0.0).argmax())
@@ -174,7 +174,9 @@ def default_range(parameters: Parameters, name: str) -> tuple[float, float]:
     """From the lowest value allowed, or a hundredth of the present one, to ten times it. HitchError where that is 0."""
     present = float(getattr(parameters, name))
     if not present > 0.0:
-        raise HitchError(f"{name} = {present:g} {Parameters.unit(name)} gives no range to look in: say --range A:B")
+        raise HitchError(
+            f"{name} = {with_unit(present, Parameters.unit(name))} gives no range to look in: say --range A:B"
+        )
     try:
         parameters.changed({name: 0.0})
     except HitchError:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from overrun_hitch.design.optimise import Optimum, Wanted
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.measure.metrics import METRICS
-from overrun_hitch.parameters import Parameters
+from overrun_hitch.parameters import Parameters, with_unit
 from overrun_hitch.show.table import Column, Numbers, Row, coloured, console, number, table
 from overrun_hitch.theory.working_point import working_point
 
@@ -22,8 +22,8 @@ def show(title: str, wanted: Wanted, found: Optimum) -> None:
     unit = Parameters.unit(found.name)
     before, after = (float(getattr(each, found.name)) for each in (found.before, found.after))
     out.print(
-        f"{title}: {found.name} = {after:.6g} {unit} (was {before:.6g}) gives a damping ratio of {wanted.ratio:g} or "
-        f"more from {wanted.V_low:g} to {wanted.V_high:g} m/s",
+        f"{title}: {found.name} = {with_unit(after, unit)} (was {before:.6g}) gives a damping ratio of "
+        f"{wanted.ratio:g} or more from {wanted.V_low:g} to {wanted.V_high:g} m/s",
         soft_wrap=True,
     )
     for remark in _remarks(found):
@@ -40,9 +40,10 @@ def _remarks(found: Optimum) -> Iterator[str]:
     """What the number alone does not tell."""
     name, unit, smallest, after = found.name, Parameters.unit(found.name), found.found, found.after
     if smallest.is_edge:
-        yield f"{name} = {smallest.value:.6g} {unit} is the edge of the range: whether less is enough was not looked at"
+        edge = with_unit(smallest.value, unit)
+        yield f"{name} = {edge} is the edge of the range: whether less is enough was not looked at"
     if math.isfinite(smallest.enough_until):
-        yield f"more is not better: from {name} = {smallest.enough_until:.4g} {unit} on it is too little again"
+        yield f"more is not better: from {name} = {with_unit(smallest.enough_until, unit)} on it is too little again"
     if after.rebound != 1.0:
         yield "approximate: theory takes a damper of (1 + rebound)/2 C, and the FMU's is the logarithmic decrement"
     low, high = working_point(after).reach

@@ -77,8 +77,10 @@ def _communication_points(scenario: Scenario, h: float) -> np.ndarray[Any, np.dt
     V_0, duration = scenario.parameters.V_0, scenario.duration
     if V_0 < STANDSTILL:
         raise HitchError(f"V_0 = {V_0:g} m/s is not allowed: a step brake starts at {STANDSTILL} m/s at least")
-    if duration / h > MOST_STEPS:
-        raise HitchError(f"communication_step = {h:g} s is not allowed: {MOST_STEPS} steps at most in {duration:g} s")
+    if not 1.0 <= duration / h <= MOST_STEPS:
+        least = max(duration / MOST_STEPS, Settings.limits("communication_step")[0])
+        allowed = f"a run of {duration:g} s has steps from {least:g} to {duration:g} s"
+        raise HitchError(f"communication_step = {h:g} s is not allowed: {allowed}")
     steps = math.ceil(duration / h * (1.0 - 1e-12))
     return np.append(np.arange(steps) * h, duration)
 

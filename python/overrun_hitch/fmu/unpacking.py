@@ -23,6 +23,7 @@ LARGEST = 2**30  # bytes, unpacked
 HIGHEST_RATIO = 200  # of unpacked to packed; binaries have 2 to 10, and a deflated bomb 1000
 SMALL = 2**24  # bytes: below, the ratio harms nobody
 PIECE = 2**20  # bytes read at once
+UNWRITABLE = "the working directory's name has letters that this locale cannot write; allowed: UTF-8, as LC_ALL=C.UTF-8"
 
 
 @contextmanager
@@ -36,6 +37,8 @@ def unpacked(fmu: Path) -> Iterator[tuple[Any, str]]:
             raise HitchError(f"{fmu} is broken: it has no modelDescription.xml")
         try:
             description = fmpy.read_model_description(folder)
+        except UnicodeEncodeError:  # lxml's, which puts a file's name after that of the working directory
+            raise HitchError(UNWRITABLE) from None
         except Exception as error:  # fmpy raises bare Exception, and lxml its own
             raise HitchError(f"{fmu} is broken: {one_line(error)}") from None
         _check_kind(fmu, description, names)
@@ -108,6 +111,14 @@ def _check_kind(fmu: Path, description: Any, names: list[str]) -> None:
     if description.fmiVersion != "2.0" or description.coSimulation is None:
         raise HitchError(f"{fmu} has FMI {description.fmiVersion}: an FMI 2.0 unit for co-simulation is needed")
     library = f"{description.coSimulation.modelIdentifier}{fmpy.sharedLibraryExtension}"
-    if f"binaries/{fmpy.platform}/{library}" not in names:
+    place = f"binaries/{fmpy.platform}/"
+    if f"{place}{library}" not in names:
+        others = [
+            name.removeprefix(place)
+            for name in names
+            if name.startswith(place) and name.endswith(fmpy.sharedLibraryExtension)
+        ]
+        if others:
+            raise HitchError(f"{fmu} has no {library}, the library of its modelIdentifier; it has {', '.join(others)}")
         there = sorted({name.split("/")[1] for name in names if name.startswith("binaries/") and name.count("/") == 2})
         raise HitchError(f"{fmu} has no {library} for {fmpy.platform}; it has {', '.join(there) or 'no binaries'}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -51,19 +52,25 @@ class _Rate(ProgressColumn):
 
 @contextmanager
 def counting(what: str) -> Iterator[Callable[[int, int, int], None]]:
-    """Show a bar with rate and time left on stderr, where that is a terminal.
+    """Show a bar with rate and time left on stderr, where that is a terminal; after Ctrl-C how far it came.
 
-    Gives a function that is told runs done, failed ones among them, and runs in all.
+    Gives a function that is told runs done, failed ones among them, and runs in all. What is done must be kept.
     """
     ahead = TimeRemainingColumn(), TextColumn("{task.description}")
     columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), _Rate(), *ahead)
     console = Console(stderr=True)
-    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
-        tasks: list[TaskID] = []
+    tasks: list[TaskID] = []
+    try:
+        with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
 
-        def told(done: int, failed: int, runs: int) -> None:
-            if not tasks:
-                tasks.append(progress.add_task("", total=runs, completed=done))
-            progress.update(tasks[0], completed=done, description=f"{failed} failed" if failed else "")
+            def told(done: int, failed: int, runs: int) -> None:
+                if not tasks:
+                    tasks.append(progress.add_task("", total=runs, completed=done))
+                progress.update(tasks[0], completed=done, description=f"{failed} failed" if failed else "")
 
-        yield told
+            yield told
+    except KeyboardInterrupt:
+        for task in progress.tasks:
+            so_far = f"{task.completed:.0f} of {task.total:.0f} runs are done"
+            print(f"interrupted, {so_far}; the same command goes on", file=sys.stderr)
+        raise

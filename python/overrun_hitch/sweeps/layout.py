@@ -11,6 +11,7 @@ import dask.array as da
 import numpy as np
 import xarray as xr
 
+from overrun_hitch.decimals import decimals
 from overrun_hitch.measure.metrics import METRICS
 from overrun_hitch.results import VARIABLES
 from overrun_hitch.sweeps.plan import STEP_BRAKE, Plan
@@ -67,7 +68,7 @@ def _empty(plan: Plan, size: int) -> xr.Dataset:
     coordinates["fmu"] = ("run", fmus[plan.fmu], {"long_name": "FMU that was run"})
     coordinates["profile"] = ("run", profiles[plan.profile], {"long_name": f"inputs over time, or {STEP_BRAKE}"})
     if job.trajectories:
-        coordinates["time"] = ("time", job.points, _attributes("s", "time"))
+        coordinates["time"] = ("time", np.array(decimals(job.points)), _attributes("s", "time"))
     attributes = {"title": plan.name, "layout": LAYOUT, "sweep": json.dumps(plan.identity), **job.fixed}
     return xr.Dataset(data, coordinates, attributes)
 

@@ -19,7 +19,7 @@ from overrun_hitch.fmu.description import Description, described
 from overrun_hitch.fmu.profiles import Profile, profile
 from overrun_hitch.fmu.settings import Settings
 from overrun_hitch.measure.metrics import METRICS
-from overrun_hitch.parameters import CASES, DATUM, HitchError, Parameters, Scenario, named
+from overrun_hitch.parameters import CASES, DATUM, HitchError, Parameters, Scenario, named, with_unit
 from overrun_hitch.results import VARIABLES
 from overrun_hitch.sweeps.job import FmuFile, Job
 from overrun_hitch.sweeps.plan import STEP_BRAKE, Plan, Quantity
@@ -120,8 +120,8 @@ def _check_brake_torque(value: float) -> None:
 def _check_limits(name: str, variable: Any, value: float) -> None:
     if not variable.low <= value <= variable.high:
         raise HitchError(
-            f"{name} = {value:g} {variable.unit} is not allowed: {variable.description} must be "
-            f"at least {variable.low:g} and at most {variable.high:g} {variable.unit}"
+            f"{name} = {with_unit(value, variable.unit)} is not allowed: {variable.description} must be "
+            f"at least {variable.low:g} and at most {with_unit(variable.high, variable.unit)}"
         )
 
 

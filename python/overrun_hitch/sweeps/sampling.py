@@ -8,13 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
+from overrun_hitch.decimals import decimals
+
 Floats = NDArray[np.float64]
 Columns = Mapping[str, Floats]  # each (rows,)
 
 
 def spaced(low: float, high: float, count: int, scale: str) -> Floats:
     """`count` values from `low` to `high`, both included, at even distances ("linear") or ratios ("log")."""
-    return np.asarray((np.geomspace if scale == "log" else np.linspace)(low, high, count))
+    return np.array(decimals((np.geomspace if scale == "log" else np.linspace)(low, high, count)))
 
 
 def sampled(method: str, count: int, seed: int, ranges: Mapping[str, tuple[float, float]]) -> Columns:

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from overrun_hitch.parameters import HitchError, Parameters
+from overrun_hitch.parameters import HitchError, Parameters, with_unit
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -71,7 +71,7 @@ def _without_tyres(parameters: Parameters, V: float, s: float = 0.0) -> tuple[Fl
 def check_known(parameters: Parameters) -> None:
     """HitchError, naming it, if there is a parameter that linear theory does not know and that is not neutral."""
     for name in parameters.off_default("neutral"):
-        value = f"{getattr(parameters, name):g} {parameters.unit(name)}".removesuffix(" 1")
+        value = with_unit(getattr(parameters, name), parameters.unit(name))
         default = f"{Parameters.model_fields[name].default:g}"
         raise HitchError(f"linear theory does not know {name} = {value}; allowed: {default}")
 

@@ -35,7 +35,7 @@ BAD = [
     (["--set", "C=two\nhundred"], "C = "),
     (["--set", "C"], "--set 'C' is not NAME=VALUE"),
     (["--figure", "12"], "there is no figure '12'; allowed: "),
-    (["--case", "x"], "there is no case 'x'; allowed: "),
+    (["--case", "x"], "there is no case 'x'; did you mean ix? allowed: i, "),
     (["--figure", "8", "--case", "ii"], "--figure and --case exclude each other"),
     (["--duration", "0"], "duration = 0 s"),
     (["--duration", "inf"], "duration = inf s"),
@@ -44,7 +44,15 @@ BAD = [
     (["--tolerance", "0"], "relative_tolerance = 0 is not allowed"),
     (["--tolerance", "nan"], "relative_tolerance = nan is not allowed"),
     (["--step", "0"], "communication_step = 0 s"),
-    (["--step", "1e-6", "--duration", "100"], "communication_step = 1e-06 s"),
+    (
+        ["--step", "1e-6", "--duration", "100"],
+        "communication_step = 1e-06 s is not allowed: a run of 100 s has steps from",
+    ),
+    (["--step", "10"], "communication_step = 10 s is not allowed: a run of 6 s has steps from 6e-06 to 6 s"),
+    (
+        ["--duration", "0.001"],
+        "communication_step = 0.01 s is not allowed: a run of 0.001 s has steps from 1e-06 to 0.0",
+    ),
     (["--nonsense"], "No such option"),
     (["surplus"], "unexpected extra argument"),
 ]

@@ -145,7 +145,7 @@ BAD = [
     (["--C", "50,"], "'' is no number"),
     (["--V", ":"], "'' is no number"),
     (["--V", "fast"], "'fast' is no number"),
-    (["--case", "x"], "there is no case 'x'; allowed: "),
+    (["--case", "x"], "there is no case 'x'; did you mean ix? allowed: i, "),
     (["--set", "k=0", "--set", "r=0"], "one of them must be greater than 0"),
     (["--set", "k=1e300"], "k = 1e+300 N/m is not allowed"),
     (["--set", "I_c=1e308"], "I_c = 1e+308 kg.m2 is not allowed"),

@@ -87,7 +87,7 @@ def test_case_and_parameters_are_the_base(car_trailer_fmu: Path) -> None:
 
 BAD = [
     ("grid = {Q = [1.0]}", "grid: there is no parameter or input 'Q'; allowed: "),
-    ("gird = {C = [1.0]}", "there is no setting in a sweep 'gird'; allowed: grid, "),
+    ("gird = {C = [1.0]}", "there is no setting in a sweep 'gird'; did you mean grid? allowed: name, "),
     ("grid = {C = []}", "grid.C = [] is not allowed"),
     ("grid = {C = [1.0, 1.0]}", "grid.C has a value twice"),
     ("grid = {C = [-1.0]}", "C = -1 N.s/m is not allowed: drawbar damper coefficient must be a finite number, at"),
@@ -98,7 +98,7 @@ BAD = [
     ("grid = {C = {min = 5.0, max = 5.0, count = 3}}", "grid.C is an empty range, from 5 to 5"),
     ("grid = {C = {min = 5.0, max = 9.0, count = 1}}", "grid.C.count = 1 is not allowed: input should be greater"),
     ("grid = {C = {min = 5.0, max = 9.0}}", "grid.C.count is not allowed: field required"),
-    ("grid = {C = {min = 5.0, max = 9.0, cuont = 3, count = 3}}", "there is no setting in grid.C 'cuont'; allowed:"),
+    ("grid = {C = {min = 5.0, max = 9.0, cuont = 3, count = 3}}", "setting in grid.C 'cuont'; did you mean count?"),
     ("grid = {C = {min = 0.0, max = 9.0, count = 3, scale = 'log'}}", "grid.C: min = 0 is not allowed on a log scale"),
     ("grid = {C = {min = 0.0, max = 9.0, count = 2000000}}", "grid.C: count = 2000000 is not allowed"),
     ("runs = {C = [1.0, 2.0], k = [1.0]}", "the columns of runs must have equal lengths; C has 2, k has 1"),
@@ -110,7 +110,7 @@ BAD = [
     ("sample = {method = 'sobol', count = 4, ranges = {}}", "sample.ranges = {} is not allowed"),
     ("sample = {method = 'sobol', count = 4, ranges = {C = {min = 2.0, max = 1.0}}}", "sample.ranges.C: min = 2"),
     ("sample = {method = 'sobol', count = 4, ranges = {C = {min = -2.0, max = 1.0}}}", "sample.ranges: C = -2 N.s/m"),
-    ("metrics = ['growth']", "there is no metric 'growth'; allowed: growth_rate"),
+    ("metrics = ['growth']", "there is no metric 'growth'; did you mean growth_rate? allowed: growth_rate"),
     ("trajectories = ['speed']", "there is no variable 'speed'; allowed: "),
     ("case = 'x'", "there is no case 'x'"),
     ("duration = 0.0", "duration = 0 s"),
