@@ -65,7 +65,7 @@ class Watch:
 
     def __call__(self, done: int, failed: int, runs: int) -> None:
         """Note where the sweep is."""
-        workers = [one for one in psutil.Process().children(True) if "--multiprocessing-fork" in one.cmdline()]
+        workers = psutil.Process().children(True)
         if workers:
             times = [one.cpu_times() for one in [psutil.Process(), *workers]]
             self.done.append(done)

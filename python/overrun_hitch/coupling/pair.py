@@ -15,12 +15,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from overrun_hitch.fmu.guest import Guest
+from overrun_hitch.fmu.guest import Guest, GuestLost
 from overrun_hitch.fmu.messages import StepRefused
 from overrun_hitch.fmu.opening import opened
 from overrun_hitch.fmu.settings import TIME_LIMIT, checked_time_limit
 from overrun_hitch.fmu.unit import Unit
-from overrun_hitch.parameters import Parameters
+from overrun_hitch.parameters import HitchError, Parameters
 
 Floats = NDArray[np.float64]
 
@@ -172,8 +172,11 @@ class GuestPair:
     def run(
         self, scheme: Scheme, parameters: Parameters, brake_torque: float, duration: float, H: float, tolerance: float
     ) -> Coupled:
-        """As Pair.run; GuestLost where that takes too long or crashes."""
-        coupled: Coupled = self._guest.call(Pair.run, scheme, parameters, brake_torque, duration, H, tolerance)
+        """As Pair.run; HitchError where that takes too long or crashes."""
+        try:
+            coupled: Coupled = self._guest.call(Pair.run, scheme, parameters, brake_torque, duration, H, tolerance)
+        except GuestLost as error:
+            raise HitchError(f"{error}; the run was {scheme.name!r} with H = {H:g} s") from None
         return coupled
 
 

@@ -29,6 +29,7 @@ from typing import Any
 from overrun_hitch.fmu import guest_process
 from overrun_hitch.parameters import HitchError
 
+START = 60.0  # s, at least, to get ready: Python starts, and a busy machine is not the FMU's fault
 PATIENCE = 2.0  # s, for a guest to leave by itself
 ONE_THREAD = dict.fromkeys(("MKL_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")  # as Dask's workers
 LOOK_EVERY = 0.25  # s, at most
@@ -40,19 +41,15 @@ class GuestLost(HitchError):
     """The guest's process has ended in mid-call; the next call gets another."""
 
 
-class GuestCrashed(GuestLost):
-    """By itself."""
-
-
 class GuestLate(GuestLost):
-    """By us, because it did not finish in time."""
+    """We have ended it, because it did not finish in time."""
 
 
 class Guest:
     """A process in which the context manager `enter(*arguments)` is entered; calls are made on what it gives.
 
     All of it is pickled. The process starts at once and gets ready while the host goes on. `name` is for messages;
-    `limit` is what a call may take, in s, and getting ready as much.
+    `limit` is what a call may take, in s.
     """
 
     def __init__(
@@ -77,7 +74,7 @@ class Guest:
                 process.end(0.0)
                 raise EOFError
             if not process.is_ready:
-                process.reply(self._limit)
+                process.reply(max(self._limit, START))
             process.send((function, arguments))
             return process.reply(self._limit)
         except (EOFError, BrokenPipeError, pickle.UnpicklingError):
@@ -93,8 +90,8 @@ class Guest:
         if self._is_closed:
             return HitchError(f"{self._name}: its process has been closed")
         if process.is_late:
-            return GuestLate(f"{self._name}: did not finish within {self._limit:g} s (--time-limit)")
-        return GuestCrashed(f"{self._name}: {_ending(status)}")
+            return GuestLate(f"{self._name}: did not finish within {process.limit:g} s (--time-limit)")
+        return GuestLost(f"{self._name}: {_ending(status)}")
 
     def close(self, patience: float = 0.0) -> None:
         """End the process, by force after `patience` s; any thread may, also while another waits in `call`."""
@@ -112,7 +109,7 @@ class _Process:
         self.is_late = False
         self._folder = tempfile.mkdtemp(prefix="hitch-")
         self._place = Path(self._folder, "place")
-        self._limit, self._deadline = 0.0, math.inf
+        self.limit, self._deadline = 0.0, math.inf
         self._lock = threading.Lock()  # what the deadline is, and whether it has been killed
         self._is_killed = False
         self._is_over = threading.Event()
@@ -143,7 +140,7 @@ class _Process:
         """What comes next, within `limit` s. EOFError where nothing comes any more."""
         assert self._popen.stdout is not None
         with self._lock:
-            self._limit, self._deadline = limit, time.monotonic() + limit
+            self.limit, self._deadline = limit, time.monotonic() + limit
         try:
             self.is_ready = False
             value, error, self.is_ready = pickle.load(self._popen.stdout)
@@ -189,11 +186,11 @@ class _Process:
     def _watch(self) -> None:
         """Kill it when its time is over; where it tells its place, each has the whole time."""
         place = 0
-        while not self._is_over.wait(min(LOOK_EVERY, max(0.01, 0.1 * self._limit))):
+        while not self._is_over.wait(min(LOOK_EVERY, max(0.01, 0.1 * self.limit))):
             now = self.place()
             with self._lock:
                 if now != place and self._deadline < math.inf:
-                    self._deadline = time.monotonic() + self._limit
+                    self._deadline = time.monotonic() + self.limit
                 self.is_late = self._deadline < time.monotonic() and now != OURS
             place = now
             if self.is_late or self._popen.poll() is not None:  # then its children may hold our pipe open

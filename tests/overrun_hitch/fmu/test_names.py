@@ -48,9 +48,11 @@ def test_a_folder_and_a_file_with_awkward_names(awkward: Path, monkeypatch: pyte
 
 
 @pytest.mark.skipif(os.name == "nt", reason="paths are Unicode there")
-@pytest.mark.parametrize(("utf8", "said"), [("1", ""), ("0", UNWRITABLE)])
-def test_the_locale_is_blamed_and_not_the_fmu(utf8: str, said: str, awkward: Path) -> None:
+@pytest.mark.parametrize(("utf8", "within", "said"), [("1", "there", ""), ("0", "", ""), ("0", "there", UNWRITABLE)])
+def test_the_locale_is_blamed_and_not_the_fmu(utf8: str, within: str, said: str, awkward: Path) -> None:
+    """Where temporary files lie in such a folder, too."""
     environment = {**os.environ, "LC_ALL": "POSIX", "PYTHONUTF8": utf8, "PYTHONCOERCECLOCALE": "0"}
+    environment |= {"TMPDIR": str(awkward.parent)} if within else {}
     command = [sys.executable, "-c", OPENING, awkward.name]
     done = subprocess.run(command, env=environment, capture_output=True, check=False)
     assert done.stderr.decode() == said

@@ -19,9 +19,9 @@ from overrun_hitch.parameters import HitchError
 from overrun_hitch.sweeps.layout import MISSING
 from overrun_hitch.sweeps.plan import Plan
 from overrun_hitch.sweeps.planner import planned
+from overrun_hitch.sweeps.runner import Runner
 from overrun_hitch.sweeps.spec import SweepSpec
 from overrun_hitch.sweeps.store import opened_store, read_sweep
-from overrun_hitch.sweeps.worker import Runner
 
 SPEC = SweepSpec(
     duration=1.0, metrics=["peak_jerk", "stopping_distance"], trajectories=["a_car"], grid={"C": [100.0, 500.0, 900.0]}
@@ -50,7 +50,7 @@ class Sweep:
 
     def __init__(self, fmu: Path) -> None:
         self.plan: Plan = planned(SPEC, [fmu])
-        self.runner = Runner(self.plan.job)
+        self.runner = Runner(self.plan.job, fmu)
         self.ran: list[int] = []
 
     def run(self, store: Path, *, repair: bool = False, most: int = 1000) -> xr.Dataset:

@@ -251,8 +251,9 @@ def test_everything_has_its_unit(car_trailer_fmu: Path, tmp_path: Path) -> None:
 
 
 def test_a_run_that_fails_is_recorded_and_stops_nothing(car_trailer_fmu: Path, tmp_path: Path) -> None:
-    """The unit refuses, in its own words, slips and masses with which it can't go on."""
-    spec = SweepSpec(runs={"compression_start": [0.0, 1e300, 0.01], "C": [500.0] * 3}, trajectories=["a_car"])
+    """The unit refuses, in its own words, what does not go together: a threshold that no frame holds."""
+    runs = {"compression_start": [0.0, 0.0, 0.01], "F_0": [0.0, 100.0, 0.0], "k_t": [548e3, 0.0, 548e3]}
+    spec = SweepSpec(runs=runs, trajectories=["a_car"])
     found = alone(spec, car_trailer_fmu, tmp_path / "failing.zarr")
     assert found["status"].values.tolist() == [FINISHED, FAILED, FINISHED]
     assert [bool(text) for text in found["message"].values] == [False, True, False]
