@@ -24,7 +24,7 @@ package Units "Physical quantities with their units and admissible ranges"
   type Damping = Real(final quantity="TranslationalDampingConstant", final unit="N.s/m", min=0, max=1e9) "Damper coefficient";
   type SlipStiffness = Real(final quantity="Force", final unit="N", min=1, max=1e9) "Tyre force per unit slip";
   type TorquePerLength = Real(final quantity="TorquePerLength", final unit="N.m/m", min=0, max=1e9) "Torque per unit length";
-  type Friction = Real(final quantity="CoefficientOfFriction", final unit="1", min=0.01, max=1e9) "Coefficient of friction";
+  type Friction = Real(final quantity="CoefficientOfFriction", final unit="1", min=0.01, max=1e12) "Coefficient of friction";
   type RollingResistance = Real(final quantity="RollingResistanceCoefficient", final unit="1", min=0, max=1e9) "Rolling resistance over load";
   type Grade = Real(final quantity="Grade", final unit="1") "Rise of the road over its horizontal run";
   type Share = Real(final quantity="Share", final unit="1", min=0, max=1) "Share";

@@ -130,7 +130,7 @@ def _alike(name: str, names: list[str]) -> list[str]:
 # Far beyond any vehicle. From there on double precision loses what forces follow from, a slip or a compression, and a
 # run would be wrong without a word.
 MOST = 1e9  # in SI units
-MOST_INERTIA = 1e12  # kg.m2
+GREATEST = 1e12  # in SI units: inertias, and limits that by default are out of reach
 LONGEST = 1e4  # m
 WIDEST = 1e3  # m, of what is turned or displaced
 FASTEST = 1e3  # m/s
@@ -141,9 +141,9 @@ class Parameters(Quantities):
 
     M_c: float = quantity(1000.0, "kg", "mass of the car", "car", "exact", ge=1.0, le=MOST)
     M_t: float = quantity(500.0, "kg", "mass of the trailer", "trailer", "exact", ge=1.0, le=MOST)
-    I_c: float = quantity(5.0, "kg.m2", "lumped wheel inertia of the car", "car", "exact", ge=0.001, le=MOST_INERTIA)
+    I_c: float = quantity(5.0, "kg.m2", "lumped wheel inertia of the car", "car", "exact", ge=0.001, le=GREATEST)
     I_t: float = quantity(
-        2.5, "kg.m2", "lumped wheel inertia of the trailer", "trailer", "exact", ge=0.001, le=MOST_INERTIA
+        2.5, "kg.m2", "lumped wheel inertia of the trailer", "trailer", "exact", ge=0.001, le=GREATEST
     )
     R_c: float = quantity(0.35, "m", "wheel radius of the car", "car", "exact", ge=0.01, le=WIDEST)
     R_t: float = quantity(0.35, "m", "wheel radius of the trailer", "trailer", "exact", ge=0.01, le=WIDEST)
@@ -165,12 +165,14 @@ class Parameters(Quantities):
     )
     eps: float = quantity(0.0, "m", "drawbar clearance", "trailer", "exact", ge=0.0, le=LONGEST)
     F_pull_max: float = quantity(
-        1e9, "N", "largest pull of the damper in a drawbar that is pushed in", "trailer", "small", ge=0.0, le=MOST
+        1e9, "N", "largest pull of the damper in a drawbar that is pushed in", "trailer", "small", ge=0.0, le=GREATEST
     )
     rebound: float = quantity(
         1.0, "1", "damper coefficient while the drawbar springs back, over C", "trailer", "approximate", ge=0.0, le=MOST
     )
-    F_0: float = quantity(0.0, "N", "push up to which the drawbar gives by k_t alone", "link", "exact", ge=0.0, le=MOST)
+    F_0: float = quantity(
+        0.0, "N", "push up to which the drawbar gives by k_t alone", "link", "exact", ge=0.0, le=GREATEST
+    )
     x_2: float = quantity(1e3, "m", "drawbar compression beyond the clearance from which its stiffness is k_2",
                           "trailer", "exact", ge=0.0, le=LONGEST)  # fmt: skip
     k_2: float = quantity(5480.0, "N/m", "drawbar stiffness from x_2 on", "link", "exact", ge=0.0, le=MOST)
@@ -181,7 +183,7 @@ class Parameters(Quantities):
         1e3, "m", "drawbar compression at which it meets the buffer", "trailer", "exact", ge=0.0, le=LONGEST
     )
     k_buffer: float = quantity(548e3, "N/m", "drawbar stiffness from there on", "link", "exact", ge=0.0, le=MOST)
-    mu: float = quantity(1e9, "1", "friction between tyres and road", "both", "small", ge=0.01, le=MOST)
+    mu: float = quantity(1e9, "1", "friction between tyres and road", "both", "small", ge=0.01, le=GREATEST)
     sigma: float = quantity(0.0, "m", "relaxation length of the tyres", "both", "exact", ge=0.0, le=LONGEST)
     CdA_c: float = quantity(0.0, "m2", "drag area of the car", "car", "neutral", ge=0.0, le=MOST)
     CdA_t: float = quantity(0.0, "m2", "drag area of the trailer", "trailer", "neutral", ge=0.0, le=MOST)

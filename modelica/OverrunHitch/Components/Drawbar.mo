@@ -4,9 +4,9 @@ model Drawbar "Sliding drawbar with damper, clearance and its own stiffness in t
   parameter Units.Stiffness k_t = 548000 "Stiffness in tension";
   parameter Units.Damping C = 500 "Damper coefficient";
   parameter Units.Length eps(min=0, max=10000) = 0 "Clearance (backlash)";
-  parameter Units.Force F_pull_max(min=0, max=1e9) = 1e9 "Largest force of the damper against the contact: 0 for a spring that never pulls";
+  parameter Units.Force F_pull_max(min=0, max=1e12) = 1e9 "Largest force of the damper against the contact: 0 for a spring that never pulls";
   parameter Real rebound(final unit="1", min=0, max=1e9) = 1 "Damper coefficient while the drawbar springs back, over C";
-  parameter Units.Force F_0(min=0, max=1e9) = 0 "Threshold: push up to which the spring, clamped, does not give";
+  parameter Units.Force F_0(min=0, max=1e12) = 0 "Threshold: push up to which the spring, clamped, does not give";
   parameter Units.Length x_2(min=0, max=10000) = 1000 "Compression beyond the clearance from which the stiffness is k_2";
   parameter Units.Stiffness k_2 = 5480 "Stiffness from x_2 on";
   parameter Units.Length x_3(min=0, max=10000) = 1000 "Compression beyond the clearance from which the stiffness is k_3";

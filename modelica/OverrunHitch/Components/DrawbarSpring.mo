@@ -4,7 +4,7 @@ model DrawbarSpring "Force of a drawbar's springs over its compression: linear i
   parameter Units.Stiffness k = 5480 "Stiffness in compression";
   parameter Units.Stiffness k_t = 548000 "Stiffness in tension";
   parameter Units.Length eps(min=0, max=10000) = 0 "Clearance (backlash)";
-  parameter Units.Force F_0(min=0, max=1e9) = 0 "Threshold: push up to which the spring, clamped, does not give";
+  parameter Units.Force F_0(min=0, max=1e12) = 0 "Threshold: push up to which the spring, clamped, does not give";
   parameter Units.Length x_2(min=0, max=10000) = 1000 "Compression beyond the clearance from which the stiffness is k_2";
   parameter Units.Stiffness k_2 = 5480 "Stiffness from x_2 on";
   parameter Units.Length x_3(min=0, max=10000) = 1000 "Compression beyond the clearance from which the stiffness is k_3";

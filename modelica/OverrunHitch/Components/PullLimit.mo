@@ -1,7 +1,7 @@
 within OverrunHitch.Components;
 model PullLimit "Limit of what a drawbar may pull while it is pushed in, and push while it is not"
   extends Interfaces.PartialDrawbarForce;
-  parameter Units.Force F_pull_max(min=0, max=1e9) = 1e9 "Largest force of the damper against the contact: 0 for a spring that never pulls";
+  parameter Units.Force F_pull_max(min=0, max=1e12) = 1e9 "Largest force of the damper against the contact: 0 for a spring that never pulls";
   parameter Units.Length eps(min=0, max=10000) = 0 "Clearance (backlash)";
   Interfaces.ForceInput F_free "Force of springs and damper, without limit" annotation(Placement(transformation(extent={{-120,-20},{-80,20}})));
 equation

@@ -13,9 +13,9 @@ model CarTrailer "Car and trailer with an overrun brake (Sharp 1982)"
   parameter Units.Damping C = 500 "Drawbar damper coefficient";
   parameter Units.TorquePerLength r = 16303 "Trailer brake torque per unit of drawbar compression (2.975 m times k)";
   parameter Units.Length eps(min=0, max=10000) = 0 "Drawbar clearance (backlash)";
-  parameter Units.Force F_pull_max(min=0, max=1e9) = 1e9 "Largest pull of the damper in a drawbar that is pushed in: 0 for none; the paper's damper has no limit";
+  parameter Units.Force F_pull_max(min=0, max=1e12) = 1e9 "Largest pull of the damper in a drawbar that is pushed in: 0 for none; the paper's damper has no limit";
   parameter Real rebound(final unit="1", min=0, max=1e9) = 1 "Damper coefficient while the drawbar springs back, over C";
-  parameter Units.Force F_0(min=0, max=1e9) = 0 "Threshold: push up to which the drawbar gives by k_t alone and the trailer is not braked";
+  parameter Units.Force F_0(min=0, max=1e12) = 0 "Threshold: push up to which the drawbar gives by k_t alone and the trailer is not braked";
   parameter Units.Length x_2(min=0, max=10000) = 1000 "Drawbar compression beyond the clearance from which its stiffness is k_2";
   parameter Units.Stiffness k_2 = 5480 "Drawbar stiffness from x_2 on";
   parameter Units.Length x_3(min=0, max=10000) = 1000 "Drawbar compression beyond the clearance from which its stiffness is k_3";

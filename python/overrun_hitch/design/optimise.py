@@ -171,14 +171,14 @@ def _costs(unit: AnyUnit, before: Parameters, after: Parameters, V: float) -> di
 
 
 def default_range(parameters: Parameters, name: str) -> tuple[float, float]:
-    """From the lowest value allowed, or a hundredth of the present one, to ten times it. HitchError where that is 0."""
+    """From the lowest value allowed, or a hundredth of the present one, to ten times it, or the highest.
+
+    HitchError where the present one is 0.
+    """
     present = float(getattr(parameters, name))
     if not present > 0.0:
         raise HitchError(
             f"{name} = {with_unit(present, Parameters.unit(name))} gives no range to look in: say --range A:B"
         )
-    try:
-        parameters.changed({name: 0.0})
-    except HitchError:
-        return 0.01 * present, 10.0 * present
-    return 0.0, 10.0 * present
+    lowest, highest = Parameters.limits(name)
+    return 0.01 * present if lowest > 0.0 else 0.0, min(10.0 * present, highest)
