@@ -29,13 +29,16 @@ from .annotations import (
     read_icon,
     read_terminals,
 )
+from .audit import refuse_lost_modifiers
 from .clauses import assigned_names, read_algorithms, read_checks, read_whens
 from .components import elements_for
 from .declarations import Node, declared_names, fixed_names, is_text, variables_of
 from .event_expressions import EventReader, enumeration_types
 from .loading import load
 from .modifiers import with_modifiers
+from .scopes import rescoped
 from .sources import Sources, readable
+from .used_classes import UsedClasses
 from .values import Value, elements
 
 
@@ -46,6 +49,9 @@ def flatten(path: Path, class_name: str) -> FlatModel:
     """
     model, sources = load(path, class_name)
     flat = model.to_dict("flat")
+    classes = UsedClasses(sources.texts_by_number(), class_name)
+    refuse_lost_modifiers(flat, sources, classes)
+    flat = rescoped(flat, sources, classes)
     fixed = fixed_names(flat)
     flat = with_modifiers(flat, fixed)
     declared = declared_names(flat)

@@ -28,6 +28,15 @@ class Sources:
         """The text of every file."""
         return (text for _, text in self._files.values())
 
+    def texts_by_number(self) -> dict[int, str]:
+        """The text of every file, by its number in spans."""
+        return {number: text for number, (_, text) in self._files.items()}
+
+    def end_of_statement(self, span: Mapping[str, int]) -> int:
+        """Where the statement ends that the span begins in."""
+        _, text = self._files.get(span["source"], ("", ""))
+        return text.encode().find(b";", span["start"])
+
     def place(self, span: Mapping[str, int]) -> str:
         """``file:line`` of a span."""
         name, text = self._files.get(span["source"], ("", ""))
