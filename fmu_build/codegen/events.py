@@ -71,8 +71,8 @@ def _messages(model: SortedModel, printer: Printer) -> str:
             f"    message_write(message, {', '.join([_format(check.message), *arguments])});",
             "    break;",
         ]
-    body = ["switch (check) {", *cases, "default:", "    break;", "}"]
-    return function("model_message(const Variables *v, int check, Message *message)", body)
+    body = "\n".join(["switch (check) {", *cases, "default:", "    break;", "}"])
+    return function("model_message(const Variables *v, int check, Message *message)", [body])
 
 
 def _format(message: Message) -> str:

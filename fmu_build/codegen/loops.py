@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import sympy
 
@@ -10,7 +10,7 @@ from ..errors import BuildError
 from ..ir.equations import Assignment, Loop
 from ..ir.linear import rest
 from ..ir.models import JacobianModel, LoopGradient, LoopPartials, SortedModel
-from .text import comment, string
+from .text import braced, comment, string
 
 MOST_DOUBLES = 48_000  # on the stack, 384 KB: a thread may have no more than 512 KB (macOS)
 
@@ -49,47 +49,45 @@ def numbered(model: SortedModel) -> dict[str, Loop]:
     return {f"loop_{number}": loop for number, loop in enumerate(loops, start=1)}
 
 
-def tangent_lines(name: str, partials: LoopPartials, text: Text, seed: Callable[[str], str]) -> list[str]:
+def tangent_statement(name: str, partials: LoopPartials, text: Text, seed: Callable[[str], str]) -> str:
     """Tangents of the residuals, then those of the unknowns."""
     size = len(partials.loop.unknowns)
     right = [
         f"    -({' + '.join(f'({text(value)})*{seed(argument)}' for argument, value in row) or '0.0'}),"
         for row in partials.by_argument
     ]
-    return [
-        f"{{ {comment(partials.loop.origin)}",
-        f"    double right[{size}] = {{",
-        *(f"    {line}" for line in right),
-        "    };",
+    lines = [
+        f"double right[{size}] = {{",
+        *right,
+        "};",
         *_room(size),
-        f"    loop_tangent(&{name}, v, holds, right, d, work, pivots);",
-        "}",
+        f"loop_tangent(&{name}, v, holds, right, d, work, pivots);",
     ]
+    return braced(lines, partials.loop.origin)
 
 
-def adjoint_lines(name: str, partials: LoopPartials, text: Text, seed: Callable[[str], str]) -> list[str]:
+def adjoint_statement(name: str, partials: LoopPartials, text: Text, seed: Callable[[str], str]) -> str:
     """Adjoints of the residuals, then those of the arguments."""
     size = len(partials.loop.unknowns)
-    return [
-        f"{{ {comment(partials.loop.origin)}",
-        f"    double right[{size}];",
+    lines = [
+        f"double right[{size}];",
         *_room(size),
-        f"    loop_adjoint(&{name}, v, holds, d, right, work, pivots);",
+        f"loop_adjoint(&{name}, v, holds, d, right, work, pivots);",
         *(
-            f"    {seed(argument)} -= ({text(value)})*right[{row}];"
+            f"{seed(argument)} -= ({text(value)})*right[{row}];"
             for row, arguments in enumerate(partials.by_argument)
             for argument, value in arguments
         ),
-        "}",
     ]
+    return braced(lines, partials.loop.origin)
 
 
 def gradient_lines(
-    name: str, gradient: LoopGradient, number: int, is_first: bool, text: Text, targets: dict[str, str]
+    name: str, gradient: LoopGradient, number: int, is_first: bool, text: Text, targets: Mapping[str, str]
 ) -> list[str]:
     """The derivatives of the unknowns by one seed; the first one makes the factors for all.
 
-    ``targets`` has the C names of those that are used.
+    ``targets`` has the left sides of the statements that define those that are used.
     """
     size = len(gradient.right)
     column = f"{name}_column_{number}"
@@ -103,16 +101,12 @@ def gradient_lines(
         *(factors if is_first else []),
         f"double {column}[{size}] = {{{right}}};",
         f"loop_back(&{name}, {name}_factors, {name}_pivots, {column});",
-        *(
-            f"const double {targets[target]} = {column}[{i}];"
-            for i, target in enumerate(gradient.targets)
-            if target in targets
-        ),
+        *(f"{targets[target]} = {column}[{i}];" for i, target in enumerate(gradient.targets) if target in targets),
     ]
 
 
 def _room(size: int) -> list[str]:
-    return [f"    double work[LOOP_WORK({size})];", f"    unsigned pivots[{size}];"]
+    return [f"double work[LOOP_WORK({size})];", f"unsigned pivots[{size}];"]
 
 
 def _declare(name: str, loop: Loop, references: dict[str, int], text: Text, lines: Lines) -> str:
@@ -150,7 +144,7 @@ static const Loop {name} = {{
 
 static void {name}_solve(Variables *v, const bool holds[])
 {{
-{chr(10).join(_room(size))}
+{chr(10).join(f"    {line}" for line in _room(size))}
     loop_solve(&{name}, v, holds, work, pivots);
 }}
 """

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import fields
+from itertools import groupby
 
 import sympy
 
@@ -22,8 +23,22 @@ from ..ir.models import (
 )
 from ..ir.symbols import TIME
 from .events import event_sizes, print_events
-from .loops import adjoint_lines, check_stack, declare_loops, gradient_lines, numbered, tangent_lines
-from .text import Printer, assignment_lines, comment, function, identifiers, string
+from .loops import adjoint_statement, check_stack, declare_loops, gradient_lines, numbered, tangent_statement
+from .text import (
+    LONGEST_FUNCTION,
+    PIECE,
+    Printer,
+    assignment_lines,
+    braced,
+    comment,
+    function,
+    identifiers,
+    in_pieces,
+    string,
+    whole,
+)
+
+MOST_SHARED = 8_000  # doubles on the stack, 64 KB, beside those of loops
 
 
 def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str, coupling: Coupling | None = None) -> CSources:
@@ -31,10 +46,18 @@ def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str, coupli
     check_stack(model, jacobian)
     names = identifiers(model.value_references)
     header = _header(model, identifier, names, n_couplings=0 if coupling is None else 1)
-    gradients = identifiers(target for a in jacobian.assignments for target in a.targets)
-    printer = Printer(names, gradients, steady(model), numbered(model))
+    printer = Printer(names, _locals(jacobian), steady(model), numbered(model))
     text = _model(model, jacobian, printer) + _coupling(coupling, model) + print_events(model, printer)
     return CSources({"variables.h": header, "model.c": text})
+
+
+def _locals(jacobian: JacobianModel) -> dict[str, str]:
+    """The C names of the local derivatives: of many, which take pieces, elements of the array that these share."""
+    names = [target for a in jacobian.assignments for target in a.targets]
+    is_long = len(jacobian.assignments) + len(jacobian.entries) > LONGEST_FUNCTION
+    if is_long and len(names) <= MOST_SHARED:
+        return {name: f"local[{i}]" for i, name in enumerate(names)}
+    return identifiers(names)
 
 
 def _header(model: SortedModel, identifier: str, names: dict[str, str], n_couplings: int) -> str:
@@ -127,10 +150,9 @@ Direction = Callable[[Iterable[Partials | LoopPartials], Printer], list[str]]
 
 def _chain(name: str, jacobian: JacobianModel, printer: Printer, lines: Direction) -> str:
     """The chain rule through all assignments, in one direction."""
-    start = [f"    {line}" for line in lines(jacobian.start_partials, printer)]
     blocks = [
         lines(jacobian.parameter_partials, printer),
-        ["if (at_start) {", *start, "}"] if start else [],
+        _at_start(lines(jacobian.start_partials, printer)),
         lines(jacobian.partials, printer),
     ]
     ordered = blocks if lines is _tangent else blocks[::-1]
@@ -138,12 +160,20 @@ def _chain(name: str, jacobian: JacobianModel, printer: Printer, lines: Directio
     return function(signature, [line for block in ordered for line in block])
 
 
+def _at_start(statements: list[str]) -> list[str]:
+    """The statements, for the start alone: few in one block, many each by itself."""
+    if not statements or len(statements) > PIECE:
+        return [f"if (at_start) {statement}" for statement in statements]
+    lines = [f"    {line}" for statement in statements for line in statement.split("\n")]
+    return ["\n".join(["if (at_start) {", *lines, "}"])]
+
+
 def _tangent(partials: Iterable[Partials | LoopPartials], printer: Printer) -> list[str]:
     """``d->y = dy/da d->a + dy/db d->b``"""
     lines = []
     for p in partials:
         if isinstance(p, LoopPartials):
-            lines += tangent_lines(printer.loop_name(p.loop), p, printer.text, printer.seed)
+            lines.append(tangent_statement(printer.loop_name(p.loop), p, printer.text, printer.seed))
             continue
         terms = [_product(value, printer.seed(name), printer) for name, value in p.by_argument]
         lines.append(f"{printer.seed(p.target)} = {' + '.join(terms) or '0.0'}; {comment(p.origin)}")
@@ -155,7 +185,7 @@ def _adjoint(partials: Iterable[Partials | LoopPartials], printer: Printer) -> l
     lines = []
     for p in reversed(list(partials)):
         if isinstance(p, LoopPartials):
-            lines += adjoint_lines(printer.loop_name(p.loop), p, printer.text, printer.seed)
+            lines.append(adjoint_statement(printer.loop_name(p.loop), p, printer.text, printer.seed))
             continue
         lines += [
             f"{printer.seed(name)} += {_product(value, printer.seed(p.target), printer)}; {comment(p.origin)}"
@@ -179,20 +209,22 @@ def _relations(model: SortedModel, printer: Printer) -> list[str]:
 
 
 def _chained(jacobian: JacobianModel, printer: Printer) -> list[str]:
-    """The local derivatives, in their order."""
-    lines: list[str] = []
-    factored: set[str] = set()
+    """The local derivatives, in their order; those of one loop, which share its factors, stand together."""
+    statements: list[str] = []
     results = (*jacobian.entries.values(), *jacobian.time_entries.values())
     used = set().union(*(a.arguments for a in jacobian.assignments), *(value.free_symbols for value in results))
-    used_names = {s.name: printer.locals[s.name] for s in used if s.name in printer.locals}
-    for number, a in enumerate(jacobian.assignments):
-        if isinstance(a, LoopGradient):
-            name = printer.loop_name(a.loop)
-            lines += gradient_lines(name, a, number, name not in factored, printer.text, used_names)
-            factored.add(name)
-        else:
-            lines.append(f"const double {printer.locals[a.target]} = {printer.text(a.expression)}; {comment(a.origin)}")
-    return lines
+    left = {s.name: printer.left(s.name) for s in used if s.name in printer.locals}
+    numbers = {a.targets: number for number, a in enumerate(jacobian.assignments)}
+    for loop, group in groupby(jacobian.assignments, key=lambda a: a.loop if isinstance(a, LoopGradient) else None):
+        lines: list[str] = []
+        for a in group:
+            if isinstance(a, LoopGradient):
+                name = printer.loop_name(a.loop)
+                lines += gradient_lines(name, a, numbers[a.targets], not lines, printer.text, left)
+            else:
+                lines.append(f"{left[a.target]} = {printer.text(a.expression)}; {comment(a.origin)}")
+        statements += lines if loop is None or not printer.shares_locals else [braced(lines, loop.origin)]
+    return statements
 
 
 def _jacobian(model: SortedModel, jacobian: JacobianModel, printer: Printer) -> str:
@@ -203,7 +235,10 @@ def _jacobian(model: SortedModel, jacobian: JacobianModel, printer: Printer) -> 
         lines.append(f"jacobian[{index}] = {printer.text(value)}; {comment(what)}")
     lines += [f"time_derivative[{row}] = {printer.text(value)};" for row, value in jacobian.time_entries.items()]
     signature = "model_jacobian(const Variables *v, const bool holds[], double jacobian[], double time_derivative[])"
-    return function(signature, [line for line in lines if line])
+    statements = [line for line in lines if line]
+    return (
+        in_pieces(signature, statements, len(printer.locals)) if printer.shares_locals else whole(signature, statements)
+    )
 
 
 def _info(name: str, kind: str, model: SortedModel) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import sympy
 from sympy.printing.c import C11CodePrinter
@@ -11,6 +11,11 @@ from sympy.printing.c import C11CodePrinter
 from ..ir.equations import Block, Loop
 from ..ir.functions import no_number, power, reach_time, round_down, time_left
 from ..ir.symbols import TIME, relation_of
+
+# In statements. Compilers take longer than in proportion for a function: of 6000 statements five times as long as for
+# the same in pieces.
+LONGEST_FUNCTION = 300
+PIECE = 100
 
 
 def identifiers(names: Iterable[str]) -> dict[str, str]:
@@ -44,8 +49,10 @@ class Printer(C11CodePrinter):  # type: ignore[misc]
         super().__init__({"math_macros": {}})  # C11 has no M_PI
         self.names = names
         self.locals = locals_
+        self.shares_locals = any("[" in text for text in locals_.values())  # they stand in an array
         self.steady = steady
         self.loops = loops
+        self._texts: dict[sympy.Expr, str] = {}
 
     def _print_Symbol(self, expr: sympy.Symbol) -> str:
         if (relation := relation_of(expr)) is not None:
@@ -117,25 +124,52 @@ class Printer(C11CodePrinter):  # type: ignore[misc]
         return text
 
     def text(self, expression: sympy.Expr) -> str:
-        """The C of an expression."""
-        return str(self.doprint(expression))
+        """The C of an expression. Most are printed in several functions."""
+        if expression not in self._texts:
+            self._texts[expression] = str(self.doprint(expression))
+        return self._texts[expression]
 
     def seed(self, name: str) -> str:
         """The tangent or adjoint of a variable."""
         return f"d->{self.names[name]}"
+
+    def left(self, name: str) -> str:
+        """The left side of the statement that gives a partial derivative its value."""
+        return self.locals[name] if self.shares_locals else f"const double {self.locals[name]}"
 
     def loop_name(self, loop: Loop) -> str:
         """The C name of a loop."""
         return next(name for name, other in self.loops.items() if other is loop)
 
 
-def function(signature: str, lines: list[str]) -> str:
-    """A C function; parameters that its lines do not use are marked so."""
+def function(signature: str, statements: Sequence[str]) -> str:
+    """A C function, in pieces if it is long."""
+    return (whole if len(statements) <= LONGEST_FUNCTION else in_pieces)(signature, statements)
+
+
+def in_pieces(signature: str, statements: Sequence[str], n_locals: int = 0) -> str:
+    """A C function that calls pieces of itself, which share ``local[]`` if there are locals."""
+    name, _, parameters = signature.removesuffix(")").partition("(")
+    arguments = ", ".join(_arguments(signature)) + (", local" if n_locals else "")
+    pieces, calls = [], [f"double local[{n_locals}];"] if n_locals else []
+    for number, first in enumerate(range(0, len(statements), PIECE), start=1):
+        piece = f"{name}_{number}({parameters}{', double local[]' if n_locals else ''})"
+        pieces.append(f"NOT_INLINED static {whole(piece, statements[first : first + PIECE])}")
+        calls.append(f"{name}_{number}({arguments});")
+    return "\n".join([*pieces, whole(signature, calls)])
+
+
+def whole(signature: str, statements: Sequence[str]) -> str:
+    """A C function in one; parameters that its statements do not use are marked so."""
+    lines = [line for statement in statements for line in statement.split("\n")]
     body = re.sub(r"/\*.*?\*/|->\w+", "", "\n".join(lines))  # comments and fields may have the same name
-    arguments = re.findall(r"(\w+)(?:\[\])?[,)]", signature)
-    unused = [f"(void){a};" for a in arguments if not re.search(rf"\b{a}\b", body)]
+    unused = [f"(void){a};" for a in _arguments(signature) if not re.search(rf"\b{a}\b", body)]
     text = "\n".join(f"    {line}" for line in [*unused, *lines])
     return f"void {signature}\n{{\n{text}\n}}\n"
+
+
+def _arguments(signature: str) -> list[str]:
+    return re.findall(r"(\w+)(?:\[\])?[,)]", signature)
 
 
 def assignment_lines(blocks: Iterable[Block], printer: Printer) -> list[str]:
@@ -146,6 +180,11 @@ def assignment_lines(blocks: Iterable[Block], printer: Printer) -> list[str]:
         else f"v->{printer.names[block.target]} = {printer.text(block.expression)}; {comment(block.origin)}"
         for block in blocks
     ]
+
+
+def braced(lines: Iterable[str], origin: str) -> str:
+    """Lines in brackets, with the place that they come from: one statement."""
+    return "\n".join([f"{{ {comment(origin)}", *(f"    {line}" for line in lines), "}"])
 
 
 def comment(text: str) -> str:

@@ -22,11 +22,14 @@ def differentiate(model: SortedModel) -> JacobianModel:
     seeds = {name: number for number, name in enumerate((*model.states, TIME))}
     gradients: dict[str, dict[str, sympy.Expr]] = {seed: {seed: sympy.Integer(1)} for seed in seeds}
     locals_: list[Assignment | LoopGradient] = []
+    partials = _of_blocks(model.assignments)
+    partials_of = {block.targets: p for block, p in zip(model.assignments, partials, strict=True)}
     for block in needed_for(model.derivatives, model):
-        if isinstance(block, Loop):
-            gradients |= loop_gradients(block, gradients, seeds, locals_)
+        p = partials_of[block.targets]
+        if isinstance(p, LoopPartials):
+            gradients |= loop_gradients(p, gradients, seeds, locals_)
         else:
-            gradients[block.target] = _gradient(block, gradients, seeds, locals_)
+            gradients[p.target] = _gradient(p, gradients, seeds, locals_)
     states = {name: column for column, name in enumerate(model.states)}
     entries, time_entries = {}, {}
     for row, name in enumerate(model.derivatives):
@@ -39,7 +42,7 @@ def differentiate(model: SortedModel) -> JacobianModel:
     return JacobianModel(
         parameter_partials=_partials(model.parameter_assignments),
         start_partials=_of_blocks(model.start_assignments),
-        partials=_of_blocks(model.assignments),
+        partials=partials,
         assignments=reaching(set().union(*(value.free_symbols for value in results)), locals_),
         entries=entries,
         time_entries=time_entries,
@@ -66,13 +69,12 @@ def _partials(assignments: tuple[Assignment, ...]) -> tuple[Partials, ...]:
 
 
 def _gradient(
-    assignment: Assignment,
+    of: Partials,
     gradients: dict[str, dict[str, sympy.Expr]],
     seeds: dict[str, int],
     locals_: list[Assignment | LoopGradient],
 ) -> dict[str, sympy.Expr]:
-    arguments = sorted((s for s in assignment.expression.free_symbols if s.name in gradients), key=str)
-    partials = {s.name: assignment.expression.diff(s) for s in arguments}
+    partials = {name: value for name, value in of.by_argument if name in gradients}
     result: dict[str, sympy.Expr] = {}
     reached = set().union(*(gradients[n] for n in partials))
     for seed in sorted(reached, key=seeds.__getitem__):
@@ -80,8 +82,8 @@ def _gradient(
         if value == 0:
             continue
         if not (value.is_number or value.is_Symbol):
-            name = partial_name(assignment.target, seed)
-            locals_.append(Assignment(name, value, assignment.origin))
+            name = partial_name(of.target, seed)
+            locals_.append(Assignment(name, value, of.origin))
             value = symbol(name)
         result[seed] = value
     return result
@@ -100,16 +102,14 @@ def loop_partials(loop: Loop) -> LoopPartials:
 
 
 def loop_gradients(
-    loop: Loop,
+    of: LoopPartials,
     gradients: Mapping[str, Mapping[str, sympy.Expr]],
     seeds: Mapping[str, int],
     locals_: list[Assignment | LoopGradient],
 ) -> dict[str, dict[str, sympy.Expr]]:
     """The derivatives of the unknowns by the seeds, as new locals, from those of the arguments."""
-    partials = [
-        [(value, gradients[name]) for name, value in row if name in gradients]
-        for row in loop_partials(loop).by_argument
-    ]
+    loop = of.loop
+    partials = [[(value, gradients[name]) for name, value in row if name in gradients] for row in of.by_argument]
     touched = set().union(*(gradient for row in partials for _, gradient in row))
     result: dict[str, dict[str, sympy.Expr]] = {name: {} for name in loop.unknowns}
     for seed in sorted(touched, key=seeds.__getitem__):

@@ -39,6 +39,13 @@
 /* ISO C has no arrays of length zero, and a model may have no states or no relations. */
 #define AT_LEAST_ONE(n) ((n) > 0 ? (n) : 1)
 
+/* Pieces of a function that is too long for a compiler stay pieces. */
+#if defined __GNUC__
+#define NOT_INLINED __attribute__((noinline))
+#else
+#define NOT_INLINED
+#endif
+
 enum { FIRST_STATE = 1, FIRST_DERIVATIVE = FIRST_STATE + N_STATES, FIRST_INPUT = FIRST_DERIVATIVE + N_STATES };
 enum { FIRST_PARAMETER = FIRST_INPUT + N_INPUTS };
 
