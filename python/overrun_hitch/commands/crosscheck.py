@@ -45,7 +45,7 @@ def crosscheck(
     with terminal.patience("Crosschecking"):
         for scenario in scenarios:
             checks.append(compare_fmus(scenario, fmus, settings, allowed))
-            picture = crosscheck_figures.draw(checks[-1], [fmu.name for fmu in fmus], allowed)
+            picture = crosscheck_figures.draw(checks[-1], crosscheck_figures.names(fmus), allowed)
             for kind in traces.KINDS:
                 contents[output / f"{file_stem(scenario.name)}.{kind}"] = traces.rendered(picture, kind)
     document = output / "crosscheck.json"

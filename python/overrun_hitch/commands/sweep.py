@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from overrun_hitch.commands.hints import hint_sweep
 from overrun_hitch.commands.options import FmuOption, chosen_fmu, file_stem
 from overrun_hitch.parameters import HitchError
 
@@ -46,6 +47,7 @@ def sweep(
     plan = planned(asked, fmus)
     for metric in map_ or ():
         sweep_figures.check_map(plan, metric)
+    hint_sweep(plan)
     stem = output / file_stem(asked.name)
     store = stem.with_name(f"{stem.name}.zarr")
     with terminal.counting("Running") as told:
