@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import sys
 import tempfile
 from pathlib import Path
@@ -11,6 +12,8 @@ from fmu_manipulation_toolbox.container import FMUContainer
 
 H = 0.01  # s
 
+# Most ports stay open, and that is no news: without a line for each.
+logging.getLogger("fmu_manipulation_toolbox").addFilter(lambda record: "is not connected" not in record.getMessage())
 car, trailer = map(Path, sys.argv[1:] or ["build/fmi2/Car.fmu", "build/fmi2/Trailer.fmu"])
 with tempfile.TemporaryDirectory() as folder:
     builder = FMUContainer("CarTrailer", car.parent, fmi_version=2)

@@ -66,6 +66,7 @@ def test_example(
     if done.returncode and re.search(rf"No module named '{package}'|lib\w+\.so[.\d]*: ", done.stderr):
         pytest.skip(f"{package} can't be used here: {done.stderr.strip().splitlines()[-1]}")
     assert done.returncode == 0, done.stderr
+    assert "not connected" not in done.stdout + done.stderr
     lines = re.findall(r"^(\w+): v_car = (\S+) m/s, compression = (\S+) m$", done.stdout, re.MULTILINE)
     print(lines)
     assert len(lines) == (2 if example == "two_fmus" else 1)

@@ -49,7 +49,7 @@ def crosscheck(
         units = [stack.enter_context(guest_file(fmu, time_limit)) for fmu in fmus]
         for scenario in scenarios:
             checks.append(compare_units(scenario, units, settings, allowed))
-            picture = crosscheck_figures.draw(checks[-1], [fmu.name for fmu in fmus], allowed)
+            picture = crosscheck_figures.draw(checks[-1], crosscheck_figures.names(fmus), allowed)
             for kind in traces.KINDS:
                 contents[output / f"{file_stem(scenario.name)}.{kind}"] = traces.rendered(picture, kind)
     document = output / "crosscheck.json"

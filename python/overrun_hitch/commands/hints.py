@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from overrun_hitch.parameters import DATUM, HitchError, Parameters
 from overrun_hitch.theory.steady import steady
 from overrun_hitch.theory.working_point import g_n
+
+if TYPE_CHECKING:
+    from overrun_hitch.sweeps.plan import Plan
 
 FASTEST = 70.0  # m/s
 LARGEST_WHEEL = 2.0  # m
@@ -17,6 +21,18 @@ LINEAR_SLIP = 0.1  # up to which the tyre force is in proportion to slip
 def hint(parameters: Parameters, brake_torque: float = 0.0) -> None:
     """Print a line for each thing that looks like a slip of the pen; brake_torque in N.m, steady."""
     for line in hints(parameters, brake_torque):
+        print(f"hint: {line}", file=sys.stderr)
+
+
+def hint_sweep(plan: Plan) -> None:
+    """The same, each line once, for the runs in which something that varies is least or greatest."""
+    rows = {0, *(int(row) for column in plan.columns.values() for row in (column.argmin(), column.argmax()))}
+    lines: dict[str, None] = {}
+    for row in sorted(rows):
+        values = {**plan.job.fixed, **{name: float(column[row]) for name, column in plan.columns.items()}}
+        parameters = Parameters(**{name: values[name] for name in Parameters.model_fields})
+        lines |= dict.fromkeys(hints(parameters, values.get("brake_torque", 0.0)))  # of profiles nothing is said
+    for line in lines:
         print(f"hint: {line}", file=sys.stderr)
 
 

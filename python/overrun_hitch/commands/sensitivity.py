@@ -15,6 +15,7 @@ from overrun_hitch.commands.cluster import (
     WorkersOption,
     access,
 )
+from overrun_hitch.commands.hints import hint_sweep
 from overrun_hitch.commands.options import (
     FmuOption,
     ParametersOption,
@@ -60,6 +61,7 @@ def sensitivity(
     changed = name_with("figure 8" if case is None else f"case {case}", start, base)
     name = f"{changed}, spread={spread:g}, samples={samples}, step={step:g}"
     plan = plan_variation(base, variation, chosen_fmu(fmu), "sensitivity", communication_step=step)
+    hint_sweep(plan)
     stem = output / file_stem(name)
     store = stem.with_name(f"{stem.name}.zarr")
     with access(scheduler, tls_ca_file, tls_cert, tls_key), terminal.counting("Running") as told:

@@ -15,6 +15,7 @@ from overrun_hitch.commands.cluster import (
     WorkersOption,
     access,
 )
+from overrun_hitch.commands.hints import hint_sweep
 from overrun_hitch.commands.options import FmuOption, TimeLimitOption, chosen_fmu, file_stem
 from overrun_hitch.parameters import HitchError
 
@@ -56,6 +57,7 @@ def sweep(
     plan = planned(asked, fmus)
     for metric in map_ or ():
         sweep_figures.check_map(plan, metric)
+    hint_sweep(plan)
     stem = output / file_stem(asked.name)
     store = stem.with_name(f"{stem.name}.zarr")
     with access(scheduler, tls_ca_file, tls_cert, tls_key), terminal.counting("Running") as told:

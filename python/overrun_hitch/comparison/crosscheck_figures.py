@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
@@ -27,6 +29,18 @@ LINES: list[dict[str, Any]] = [
 ]
 BAND: dict[str, Any] = {"color": "#dddddd", "linewidth": 0.0, "zorder": 0.5}
 MILLI = 1000.0
+
+
+def names(fmus: Sequence[Path]) -> list[str]:
+    """What the FMUs are called in a picture: as much of the end of their paths as tells apart those of one name."""
+    parts = [fmu.absolute().parts for fmu in fmus]
+    return [str(Path(*one[-_needed(one, parts) :])) for one in parts]
+
+
+def _needed(one: tuple[str, ...], others: Sequence[tuple[str, ...]]) -> int:
+    """How many parts; 1 for a file that was given twice, which no path tells apart."""
+    different = [other for other in others if other != one]
+    return next(n for n in range(1, len(one) + 1) if all(other[-n:] != one[-n:] for other in different))
 
 
 def draw(check: Crosscheck, names: list[str], allowed: Allowed) -> Figure:

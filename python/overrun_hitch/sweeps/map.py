@@ -72,7 +72,10 @@ def draw_map(sweep: xr.Dataset, metric: str) -> Figure:
         ]
         if explained:
             figure.legend(handles=explained, loc="outside lower center", ncols=1)
-        axes.clabel(lines, fmt=lambda level: f"{level:g}".replace("-", "\N{MINUS SIGN}"), fontsize=9, inline_spacing=8)
+        labelled = inner[inner != 0.0]  # which the legend explains
+        axes.clabel(
+            lines, labelled, fmt=lambda level: f"{level:g}".replace("-", "\N{MINUS SIGN}"), fontsize=9, inline_spacing=8
+        )
         meaning = sweep[metric].attrs["long_name"].split(",")[0]
         figure.colorbar(shades, ax=axes, label=_labelled(meaning, sweep[metric]))
         axes.set_xlabel(_labelled(f"{sweep[across].attrs['long_name']}, {across}", sweep[across]))

@@ -21,6 +21,7 @@ from scipy.optimize import brentq
 
 from overrun_hitch.parameters import Parameters
 from overrun_hitch.theory.linear import ShuntingMode, shunting_mode
+from overrun_hitch.theory.working_point import check_one_piece
 
 AMPLITUDES = np.geomspace(1e-2, 1e2, 120)  # where cycles are looked for, relative to the steady compression beyond eps
 
@@ -47,7 +48,11 @@ def ramp_gain(bias: float, amplitude: float) -> tuple[float, float]:
 
 
 def predicted_cycles(parameters: Parameters, V: float, push: float) -> list[Cycle]:
-    """All cycles at V (m/s) where the trailer pushes with `push` (N): its weight along the road. Smallest first."""
+    """All cycles at V (m/s) where the trailer pushes with `push` (N): its weight along the road. Smallest first.
+
+    HitchError, naming it, for a parameter that is not among these laws (threshold, other stiffnesses, limits).
+    """
+    check_one_piece(parameters, "the describing function")
     steady = push / (parameters.k + parameters.r / parameters.R_t)
 
     def growth(amplitude: float) -> float:

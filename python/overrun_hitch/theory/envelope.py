@@ -22,6 +22,7 @@ from scipy.optimize import brentq
 from overrun_hitch.parameters import HitchError, Parameters, Scenario
 from overrun_hitch.theory.linear import compression_matrix, shunting_mode
 from overrun_hitch.theory.steady import steady
+from overrun_hitch.theory.working_point import check_one_piece
 
 Floats = NDArray[np.float64]
 
@@ -31,8 +32,11 @@ NOMINAL = np.array([0.01, 10.0, 10.0, 30.0, 30.0])  # m, m/s, m/s, rad/s, rad/s:
 
 
 def speed(scenario: Scenario, time: Floats) -> Floats:
-    """V (n,) in m/s of steady braking at `time` (n,) in s. HitchError for a time at which the combination stands."""
+    """V (n,) in m/s of steady braking at `time` (n,) in s. HitchError for a time at which the combination stands,
+    and, naming it, for a parameter that one linear equation cannot follow from there on (limits, other stiffnesses).
+    """
     p = scenario.parameters
+    check_one_piece(p, "the predicted envelope")
     V = p.V_0 + steady(p, scenario.brake_torque).A * time
     if not V.min() > 0.0:
         raise HitchError(
@@ -89,6 +93,8 @@ def integrated_compression(scenario: Scenario, time: Floats) -> Floats:
 
 def turning_speed(parameters: Parameters, fastest: float) -> float:
     """The speed (m/s) below which shunting fades and above which it grows; NaN if there is none up to `fastest`."""
+
+    check_one_piece(parameters, "the turning speed")
 
     def growth(V: float) -> float:
         return float(shunting_mode(parameters, V).growth_rate)

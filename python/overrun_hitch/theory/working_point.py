@@ -10,11 +10,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from overrun_hitch.parameters import DATUM, HitchError, Parameters
+from overrun_hitch.parameters import DATUM, HitchError, Parameters, with_unit
 from overrun_hitch.theory.steady import braking_at, pieces
 
 g_n = 9.80665  # m/s2, standard acceleration of free fall
 C_x, E_x = 1.685, 0.344  # shape and curvature of the magic formula, those of Tyre.mo
+PIECES = ("F_0", "x_2", "x_3", "travel")  # where the spring's stiffness changes, beside the clearance
 NEWTON_STEPS = 50  # from below, without overshooting: more than it takes up to the peak
 
 
@@ -57,6 +58,17 @@ def working_point(parameters: Parameters, deceleration: float = 0.0) -> WorkingP
     end = after[0].start if after else math.inf
     reach = (piece.start, end if end < DATUM.travel else math.inf)  # the defaults are out of reach
     return WorkingPoint(linear, deceleration, D, piece.stiffness, reach)
+
+
+def check_one_piece(parameters: Parameters, what: str) -> None:
+    """HitchError, naming it, for what large motions meet and `what` takes no notice of: limits, other stiffnesses."""
+    names = (
+        *parameters.off_default("small"),
+        *(name for name in PIECES if getattr(parameters, name) != getattr(DATUM, name)),
+    )
+    for name in names:
+        value = with_unit(getattr(parameters, name), Parameters.unit(name))
+        raise HitchError(f"{what} does not know {name} = {value}; allowed: {getattr(DATUM, name):g}")
 
 
 def tyre_slope(force: float, most: float, asked: str) -> float:

@@ -7,8 +7,10 @@ from pathlib import Path
 import pytest
 
 from overrun_hitch import cli
-from overrun_hitch.commands.hints import hints
+from overrun_hitch.commands.hints import hint_sweep, hints
 from overrun_hitch.parameters import CASES, DATUM, FIGURES
+from overrun_hitch.sweeps.planner import planned
+from overrun_hitch.sweeps.spec import SweepSpec
 
 
 def test_the_papers_own_runs_get_none() -> None:
@@ -31,6 +33,17 @@ def test_the_papers_own_runs_get_none() -> None:
 )
 def test_each_thing_gets_one_line(changes: dict[str, float], torque: float, said: list[str]) -> None:
     assert list(hints(DATUM.changed(changes), torque)) == said
+
+
+def test_a_sweep_is_told_once_what_its_ends_are(car_trailer_fmu: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    grid = {"V_0": {"min": 20.0, "max": 120.0, "count": 6}, "R_t": {"min": 0.3, "max": 35.0, "count": 3}}
+    hint_sweep(planned(SweepSpec(grid=grid, duration=2.0), [car_trailer_fmu]))
+    expected = ["V_0 = 120 m/s is 432 km/h; speeds are in m/s", "R_t = 35 m is a large wheel; radii are in m"]
+    assert sorted(capsys.readouterr().err.splitlines()) == sorted(f"hint: {line}" for line in expected)
+    profile = {"hard": {"time": [0.0], "brake_torque": [9000.0]}}
+    for quiet in (SweepSpec(grid={"C": [100.0, 500.0]}), SweepSpec(profiles=profile)):
+        hint_sweep(planned(quiet, [car_trailer_fmu]))
+    assert capsys.readouterr().err == ""
 
 
 def test_the_command_goes_on(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

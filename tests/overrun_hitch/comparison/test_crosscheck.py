@@ -20,7 +20,7 @@ from fmu_build.pipeline import build
 from overrun_hitch import cli
 from overrun_hitch.comparison import crosscheck_table
 from overrun_hitch.comparison.crosscheck import Allowed, Comparison, Crosscheck, compare_runs
-from overrun_hitch.comparison.crosscheck_figures import LINES, draw
+from overrun_hitch.comparison.crosscheck_figures import LINES, draw, names
 from overrun_hitch.measure.funnel import funnel
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.measure.passages import passages
@@ -292,6 +292,12 @@ def test_where_pyfunnel_has_no_library(
     assert "traces cannot be compared here: No funnel library for this platform" in err
     assert err.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
+
+
+def test_pictures_tell_files_of_one_name_apart() -> None:
+    fmus = [Path(p) for p in ("x/a/Car.fmu", "y/a/Car.fmu", "y/b/Car.fmu", "b/Van.fmu", "Car.fmu", "b/Van.fmu")]
+    expected = ["x/a/Car.fmu", "y/a/Car.fmu", "b/Car.fmu", "Van.fmu", f"{Path.cwd().name}/Car.fmu", "Van.fmu"]
+    assert names(fmus) == [str(Path(name)) for name in expected]
 
 
 def test_narrow_output_stays_readable(
