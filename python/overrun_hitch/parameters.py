@@ -136,6 +136,10 @@ class Parameters(Quantities):
     rebound: float = quantity(
         1.0, "1", "damper coefficient while the drawbar springs back, over C", "trailer", "approximate", ge=0.0
     )
+    F_f: float = quantity(0.0, "N", "dry friction of the drawbar's guide", "link", "approximate", ge=0.0)
+    tau_b: float = quantity(
+        0.0, "s", "lag of the trailer's brake torque behind the drawbar compression", "trailer", "exact", ge=0.0
+    )
     F_0: float = quantity(0.0, "N", "push up to which the drawbar gives by k_t alone", "link", "exact", ge=0.0)
     x_2: float = quantity(1e3, "m", "drawbar compression beyond the clearance from which its stiffness is k_2",
                           "trailer", "exact", ge=0.0)  # fmt: skip
@@ -146,6 +150,9 @@ class Parameters(Quantities):
     travel: float = quantity(1e3, "m", "drawbar compression at which it meets the buffer", "trailer", "exact", ge=0.0)
     k_buffer: float = quantity(548e3, "N/m", "drawbar stiffness from there on", "link", "exact", ge=0.0)
     mu: float = quantity(1e9, "1", "friction between tyres and road", "both", "small", ge=0.01)
+    mu_slide: float = quantity(
+        0.75, "1", "friction of wheels that slide, over mu", "both", "small", ge=0.5, le=0.95
+    )
     sigma: float = quantity(0.0, "m", "relaxation length of the tyres", "both", "exact", ge=0.0)
     CdA_c: float = quantity(0.0, "m2", "drag area of the car", "car", "neutral", ge=0.0)
     CdA_t: float = quantity(0.0, "m2", "drag area of the trailer", "trailer", "neutral", ge=0.0)
