@@ -21,9 +21,9 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 # trailer, so that with all of these at 0 the car runs as if alone.
 Owner = Literal["car", "trailer", "both", "link"]
 # What linear theory makes of it (docs/theory.md). exact: takes the value, of stiffnesses that where the drawbar rests.
-# small: exact for motions so small that they stay clear of the limit. approximate: takes a linear equivalent. neutral:
-# holds at the default alone. outside: the value counts only out of compression, backward or at the start.
-InTheory = Literal["exact", "small", "approximate", "neutral", "outside"]
+# small: exact for motions so small that they stay clear of the limit. large: for those so large that it hardly counts.
+# approximate: takes a linear equivalent. neutral: holds at the default alone. outside: the value counts only out of compression, backward or at the start.
+InTheory = Literal["exact", "small", "large", "approximate", "neutral", "outside"]
 
 
 class HitchError(ValueError):
@@ -136,7 +136,7 @@ class Parameters(Quantities):
     rebound: float = quantity(
         1.0, "1", "damper coefficient while the drawbar springs back, over C", "trailer", "approximate", ge=0.0
     )
-    F_f: float = quantity(0.0, "N", "dry friction of the drawbar's guide", "link", "approximate", ge=0.0)
+    F_f: float = quantity(0.0, "N", "dry friction of the drawbar's guide", "link", "large", ge=0.0)
     tau_b: float = quantity(
         0.0, "s", "lag of the trailer's brake torque behind the drawbar compression", "trailer", "exact", ge=0.0
     )

@@ -11,7 +11,7 @@ model Tyre "Tyre whose force follows from longitudinal slip, limited by friction
   parameter Real zeta(final unit="1") = 0.5 "Damping ratio of the mass on the tyre that stands";
   constant Units.Length l_0 = 0.3 "C_k over the stiffness of the tyre at rest, where sigma does not tell it";
   constant Real C_x(final unit="1") = 1.685 "Shape factor of the magic formula: p_Cx1 of Pacejka's 205/60R15";
-  constant Real E_x1(final unit="1") = 0.344 "Least curvature factor of the magic formula: p_Ex1 of Pacejka's 205/60R15";
+  constant Real E_x1(final unit="1") = 0.344 "Curvature factor of a wheel that locks before the peak, and at rest: p_Ex1 of Pacejka's 205/60R15";
   constant Real X_peak(final unit="1") = 1.5329258834444335 "Argument at the peak with it: C_x*atan(X - E_x1*(X - atan(X))) = pi/2";
   Interfaces.Flange axle "Joined to the body" annotation(Placement(transformation(extent={{-10,90},{10,110}})));
   Interfaces.Hub hub "Joined to the wheel" annotation(Placement(transformation(extent={{-10,-10},{10,10}})));
@@ -22,7 +22,8 @@ model Tyre "Tyre whose force follows from longitudinal slip, limited by friction
   Units.Velocity v_slip "Slip speed, positive when braking a tyre that rolls forward";
   Real y(final unit="1") "Speed as a share of v_low, 1 at most";
   Real w(final unit="1") "Weight of the deflection: 0 from v_low on, 1 at rest";
-  Units.Velocity v_fade "What lets the deflection fade: rolling and sliding";
+  Units.Velocity v_slide "What lets the deflection fade while it slides";
+  Units.Velocity v_fade "What lets it fade: rolling or sliding";
   Units.Deflection u(start=0, fixed=true) "Deflection of the tyre, positive when braking a tyre that rolls forward";
   Units.Slip slip_roll "Slip of the rolling tyre, positive when braking";
   Units.Slip slip_rest "Deflection of the standing one, as a slip";
@@ -38,7 +39,8 @@ protected
   parameter Real lag(final unit="1") = noEvent(if sigma > 0 then 1 else 0) "Share of the slip that follows with a lag";
   parameter Real X_lock(final unit="1") = C_k/(C_x*mu*M*Units.g_n) "Argument of the magic formula of a locked wheel";
   parameter Real B_lock(final unit="1") = tan((3.141592653589793 - asin(mu_slide))/C_x) "What the curvature is to make of it";
-  parameter Real E_x(final unit="1") = noEvent(if X_lock - B_lock > E_x1*(X_lock - atan(X_lock)) then (X_lock - B_lock)/(X_lock - atan(X_lock)) else E_x1) "Curvature factor";
+  parameter Real E_x(final unit="1") = noEvent(if X_lock > X_peak then (X_lock - B_lock)/(X_lock - atan(X_lock)) else E_x1) "Curvature factor";
+  parameter Units.Slip s_slide = X_peak*C_x*mu_slide*mu*M*Units.g_n/C_k "Deflection with which a tyre slides, as a slip";
   parameter Units.Slowness d = 2*zeta*sqrt(M/(C_k*l)) "Slip per slip speed that gives the damping zeta";
 equation
   v = der(axle.s);
@@ -47,7 +49,8 @@ equation
   y = noEvent(if v_abs < v_low then v_abs/v_low else 1);
   w = noEvent(if v_abs < v_low then 1 - y^3*(4 - 3*y) else 0);
   F_max = mu*M*g_z;
-  v_fade = noEvent(if v_abs < v_low then v_abs*y*(2 - y) + w*abs(v_slip)*C_k/(X_peak*C_x*mu_slide*F_max) else v_abs);
+  v_slide = noEvent(abs(v_slip)/s_slide);
+  v_fade = noEvent(if v_abs < v_low then max(v_abs*y*(2 - y) + w*v_slide, (1 - w)*(1 - lag)*v_slide) else max(v_abs, (1 - lag)*v_slide));
   der(u) = v_slip - v_fade*u/l;
   slip_roll = (1 - lag)*noEvent(if v_abs < v_least then 1/v_least else 1/v_abs)*v_slip + lag*u/l "Without lag the paper's equations 7 and 8";
   slip_rest = noEvent(if v_abs < v_low then u/l + d*der(u) else 0);
