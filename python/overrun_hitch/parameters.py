@@ -22,7 +22,8 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 Owner = Literal["car", "trailer", "both", "link"]
 # What linear theory makes of it (docs/theory.md). exact: takes the value, of stiffnesses that where the drawbar rests.
 # small: exact for motions so small that they stay clear of the limit. large: for those so large that it hardly counts.
-# approximate: takes a linear equivalent. neutral: holds at the default alone. outside: the value counts only out of compression, backward or at the start.
+# approximate: takes a linear equivalent. neutral: holds at the default alone. outside: the value counts only out of
+# compression, backward or at the start.
 InTheory = Literal["exact", "small", "large", "approximate", "neutral", "outside"]
 
 
@@ -150,9 +151,7 @@ class Parameters(Quantities):
     travel: float = quantity(1e3, "m", "drawbar compression at which it meets the buffer", "trailer", "exact", ge=0.0)
     k_buffer: float = quantity(548e3, "N/m", "drawbar stiffness from there on", "link", "exact", ge=0.0)
     mu: float = quantity(1e9, "1", "friction between tyres and road", "both", "small", ge=0.01)
-    mu_slide: float = quantity(
-        0.75, "1", "friction of wheels that slide, over mu", "both", "small", ge=0.5, le=0.95
-    )
+    mu_slide: float = quantity(0.75, "1", "friction of wheels that slide, over mu", "both", "small", ge=0.5, le=0.95)
     sigma: float = quantity(0.0, "m", "relaxation length of the tyres", "both", "exact", ge=0.0)
     CdA_c: float = quantity(0.0, "m2", "drag area of the car", "car", "neutral", ge=0.0)
     CdA_t: float = quantity(0.0, "m2", "drag area of the trailer", "trailer", "neutral", ge=0.0)

@@ -39,7 +39,7 @@ class Row:
     damping_ratio: float  # 1
     amplitude_ratio: float  # 1, |x_t / x_c|
     phase: float  # degrees, between x_t and x_c
-    onset_amplitude: float | None  # m: with dry friction a motion grows beyond it alone; None: no friction, or none grows
+    onset_amplitude: float | None  # m, beyond which motions grow; None: no dry friction, or none grows
     self_excited: bool
 
 

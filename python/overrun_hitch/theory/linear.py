@@ -233,7 +233,7 @@ def wheel_decay_rate(parameters: Parameters, V: float) -> float:
 
 
 def _modes(parameters: Parameters, speeds: Floats) -> tuple[Complexes, Complexes, NDArray[np.intp]]:
-    """Eigenvalues (n, 5), eigenvectors in columns (n, 5, 5) and the place (n,) of the shunting mode; with lags 6 to 8."""
+    """Eigenvalues (n, 5), eigenvectors in columns (n, 5, 5) and the place (n,) of the shunting mode; lags: to 8."""
     if parameters.k + parameters.r <= 0.0:
         raise HitchError("k = 0 N/m and r = 0 N.m/m leave no shunting mode: one of them must be greater than 0")
     values, right = np.linalg.eig(np.array([compression_matrix(parameters, float(value)) for value in speeds]))
