@@ -93,7 +93,9 @@ that is stronger in <code>rebound</code>, a <code>travel</code> of 0.085 to 0.1 
 stiffness grows (<code>x_2</code>, <code>k_2</code>, <code>x_3</code>, <code>k_3</code>); by default all these are out of
 reach, as in the paper.</p>
 <h2>Limits</h2>
-<p>By default no drag, no rolling resistance, no reversing lock-out (<code>CdA</code>, <code>C_rr</code>, <code>reverse_braking</code>). From 0.5 m/s on the tyre force follows the slip without lag. With
+<p>By default no drag, no rolling resistance, no reversing lock-out (<code>CdA</code>, <code>C_rr</code>, <code>reverse_braking</code>),
+no lag of the trailer's brakes and no dry friction (<code>tau_b</code>, <code>F_f</code>): a lag of 20 ms makes figure 8's
+combination shunt by itself. From 0.5 m/s on the tyre force follows the slip without lag. With
 the default <code>mu</code> nothing limits it: hard braking and slips beyond about 0.1 need a true one.</p>
 <h2>Source</h2>
 <p>R. S. Sharp, <em>Longitudinal Oscillations of Vehicle/Trailer Combinations Induced by Overrun Braking</em>, Vehicle

@@ -90,7 +90,9 @@ the step. <code>applied_force</code> tells which one is used; <code>F_hitch_hold
 <p>In Model Exchange, and before the first step, the three forces are equal and <code>coupling_energy</code> is 0. Their
 partial derivatives are in any case those of <code>F_hitch</code>, and 0.</p>
 <h2>Limits</h2>
-<p>By default no drag, no rolling resistance, no reversing lock-out (<code>CdA</code>, <code>C_rr</code>, <code>reverse_braking</code>). From 0.5 m/s on the tyre force follows the slip without lag. With
+<p>By default no drag, no rolling resistance, no reversing lock-out (<code>CdA</code>, <code>C_rr</code>, <code>reverse_braking</code>),
+no lag of the trailer's brakes and no dry friction (<code>tau_b</code>, <code>F_f</code>): a lag of 20 ms makes figure 8's
+combination shunt by itself. From 0.5 m/s on the tyre force follows the slip without lag. With
 the default <code>mu</code> nothing limits it: hard braking and slips beyond about 0.1 need a true one.</p>
 <h2>Source</h2>
 <p>R. S. Sharp, <em>Longitudinal Oscillations of Vehicle/Trailer Combinations Induced by Overrun Braking</em>, Vehicle
