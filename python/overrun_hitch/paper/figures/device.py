@@ -40,7 +40,7 @@ def draw(found: Device) -> Figure:
         axes.annotate("figure 8", (MILLI * LAGS[-1], C), (0.0, 3.0), textcoords="offset points", ha="right", fontsize=9)
         axes.set_xlabel("Lag of the trailer's brake torque $\\tau_b$ (ms)")
         axes.set_ylabel("$C_\\mathrm{crit}$ (N·s/m)")
-        axes.set_xlim(0.0, MILLI * LAGS[-1])
+        axes.set_xlim(0.0, 1.04 * MILLI * LAGS[-1])
         axes.set_ylim(bottom=0.0)
         axes.legend(loc="upper left", fontsize=9)
     return figure

@@ -65,8 +65,8 @@ BEYOND: Mapping[str, tuple[str, str]] = {
     "device": (
         "C_crit of case ii over the lag of the trailer's brake",
         "A brake that answers late pushes when it should have let go. Some milliseconds of lag take more damper than "
-        "all that the wheels' own lag takes at 40 m/s, and the lines of all speeds run together: with a lag, a combination "
-        "shunts at any speed, down to the stop. Dotted: the damper of figure 8.",
+        "all that the wheels' own lag takes at 40 m/s, and the lines of all speeds run together: with a lag, a "
+        "combination shunts at any speed, down to the stop. Dotted: the damper of figure 8.",
     ),
     "cycles": (
         "Sustained oscillations of case ii at 40 m/s",

@@ -71,8 +71,8 @@ def friction_hides(found: Device) -> Lesson:
     """Dry friction makes a hard onset."""
     text = (
         f"Friction of {FRICTION:g} N in the drawbar's guide lets the same combination pass every gentle trial: motions "
-        f"of the drawbar below {MILLI * found.onset:.0f} mm die out, those above grow, so that a hard brake step is what "
-        "brings it out. Try a hitch with hard steps, or with the guide freshly greased."
+        f"of the drawbar below {MILLI * found.onset:.0f} mm die out, those above grow, so that a hard brake step is "
+        "what brings it out. Try a hitch with hard steps, or with the guide freshly greased."
     )
     return Lesson("Dry friction hides it until the driver brakes hard.", text, 0.0 < found.onset < np.inf)
 

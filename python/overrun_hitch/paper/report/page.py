@@ -151,8 +151,8 @@ def _findings(study: Study, claims: Sequence[Claim]) -> list[Finding]:
             good == len(checks),
         ),
         Finding(
-            f"with a brake that lags the same holds at {sum(check.holds for check in lagging)} of {len(lagging)} points "
-            f"of lag and speed, {100.0 * device.BESIDE:g} % beside C_crit",
+            f"with a brake that lags the same holds at {sum(check.holds for check in lagging)} of {len(lagging)} "
+            f"points of lag and speed, {100.0 * device.BESIDE:g} % beside C_crit",
             "device",
             all(check.holds for check in lagging),
         ),
