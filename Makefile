@@ -59,7 +59,7 @@ $(READY_MADE)/fmi3/%.fmu: $(SOURCES)
 bench: $(READY) $(word 1,$(FMUS))  ## measure a run of figure 8 against its arithmetic and other ways (benchmarks/results.md; three minutes)
 	$(BIN)/python -m benchmarks $(word 1,$(FMUS))
 
-stops: $(READY)  ## 200 stops from 30 m/s: steps, events, rest, way and energy of each (three minutes)
+stops: $(READY)  ## 248 stops from 30 m/s: steps, events, rest, way and energy of each (three minutes)
 	$(BIN)/python tests/fmu_build/runtime/stops.py
 
 sanitize: $(READY)  ## run the C drivers under AddressSanitizer and UndefinedBehaviorSanitizer

@@ -46,6 +46,7 @@ LIVELY = {
     "F_0": 100.0, "x_2": 0.01, "k_2": 8000.0, "x_3": 0.02, "k_3": 12e3, "travel": 0.035,
 }  # fmt: skip
 BACKWARD = {"reverse_braking"}  # what matters there alone
+LOCKED = {"mu_slide"}  # and where wheels lock
 BEYOND_REACH = 1e8
 
 
@@ -58,6 +59,8 @@ def changed(name: str) -> dict[str, float]:
 
 
 def lively(name: str) -> dict[str, float]:
+    if name in LOCKED:
+        return {**LIVELY, "brake_torque": 4000.0, "mu": 0.3}
     return {**LIVELY, "V_0": -40.0, "compression_start": 0.1} if name in BACKWARD else LIVELY
 
 

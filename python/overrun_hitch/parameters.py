@@ -22,9 +22,10 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 # trailer, so that with all of these at 0 the car runs as if alone.
 Owner = Literal["car", "trailer", "both", "link"]
 # What linear theory makes of it (docs/theory.md). exact: takes the value, of stiffnesses that where the drawbar rests.
-# small: exact for motions so small that they stay clear of the limit. approximate: takes a linear equivalent. neutral:
-# holds at the default alone. outside: the value counts only out of compression, backward or at the start.
-InTheory = Literal["exact", "small", "approximate", "neutral", "outside"]
+# small: exact for motions so small that they stay clear of the limit. large: for those so large that it hardly counts.
+# approximate: takes a linear equivalent. neutral: holds at the default alone. outside: the value counts only out of
+# compression, backward or at the start.
+InTheory = Literal["exact", "small", "large", "approximate", "neutral", "outside"]
 
 
 class HitchError(ValueError):
@@ -134,6 +135,8 @@ GREATEST = 1e12  # in SI units: inertias, and limits that by default are out of 
 LONGEST = 1e4  # m
 WIDEST = 1e3  # m, of what is turned or displaced
 FASTEST = 1e3  # m/s
+STRONGEST = 1e6  # N, of friction, which is stiff where it sticks
+SLOWEST = 1e3  # s
 
 
 class Parameters(Quantities):
@@ -170,6 +173,16 @@ class Parameters(Quantities):
     rebound: float = quantity(
         1.0, "1", "damper coefficient while the drawbar springs back, over C", "trailer", "approximate", ge=0.0, le=MOST
     )
+    F_f: float = quantity(0.0, "N", "dry friction of the drawbar's guide", "link", "large", ge=0.0, le=STRONGEST)
+    tau_b: float = quantity(
+        0.0,
+        "s",
+        "lag of the trailer's brake torque behind the drawbar compression",
+        "trailer",
+        "exact",
+        ge=0.0,
+        le=SLOWEST,
+    )
     F_0: float = quantity(
         0.0, "N", "push up to which the drawbar gives by k_t alone", "link", "exact", ge=0.0, le=GREATEST
     )
@@ -184,6 +197,7 @@ class Parameters(Quantities):
     )
     k_buffer: float = quantity(548e3, "N/m", "drawbar stiffness from there on", "link", "exact", ge=0.0, le=MOST)
     mu: float = quantity(1e9, "1", "friction between tyres and road", "both", "small", ge=0.01, le=GREATEST)
+    mu_slide: float = quantity(0.75, "1", "friction of wheels that slide, over mu", "both", "small", ge=0.5, le=0.95)
     sigma: float = quantity(0.0, "m", "relaxation length of the tyres", "both", "exact", ge=0.0, le=LONGEST)
     CdA_c: float = quantity(0.0, "m2", "drag area of the car", "car", "neutral", ge=0.0, le=MOST)
     CdA_t: float = quantity(0.0, "m2", "drag area of the trailer", "trailer", "neutral", ge=0.0, le=MOST)

@@ -13,7 +13,8 @@ from tests.sampling import sampled
 from tests.unit import Unit
 
 CLASSES = (LIBRARY / "Validation" / "package.order").read_text().split()
-SAMPLED = {"Body", "Drawbar", "PullLimit", "Tyre", "WheelAtRest", "SteadyBraking"}  # the others in `make test-all`
+# The others in `make test-all`.
+SAMPLED = {"Body", "Drawbar", "PullLimit", "Tyre", "WheelAtRest", "SteadyBraking", "BrakeLag"}
 STEPS = 500
 BOUND = 1e-6  # of the largest value that is expected
 

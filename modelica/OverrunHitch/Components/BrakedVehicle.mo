@@ -6,6 +6,7 @@ model BrakedVehicle "Rigid body on one lumped braked wheel with a slip tyre"
   parameter Units.SlipStiffness C_k = 400000 "Tyre force per unit slip";
   parameter Units.Velocity V_0(min=-1000, max=1000) = 40 "Speed at the start";
   parameter Units.Friction mu = 1e9 "Friction between tyres and road";
+  parameter Units.Share mu_slide(min=0.5, max=0.95) = 0.75 "Friction of wheels that slide, over mu";
   parameter Units.Length sigma(min=0, max=10000) = 0 "Relaxation length of the tyres";
   parameter Units.Area CdA = 0 "Drag area";
   parameter Units.RollingResistance C_rr = 0 "Rolling resistance over load";
@@ -16,7 +17,7 @@ model BrakedVehicle "Rigid body on one lumped braked wheel with a slip tyre"
   Interfaces.AccelerationInput g_x "Gravity along the road, positive forward" annotation(Placement(transformation(extent={{-120,40},{-80,80}})));
   Interfaces.AccelerationInput g_z "Gravity onto the road" annotation(Placement(transformation(extent={{-120,-80},{-80,-40}})));
   Body body(M=M, CdA=CdA, x(start=x_0), v(start=V_0)) "Body" annotation(Placement(transformation(extent={{-20,20},{20,60}})));
-  Tyre tyre(C_k=C_k, R=R, M=M, mu=mu, C_rr=C_rr, sigma=sigma, final v_low=0.5, final zeta=0.5) "Tyre" annotation(Placement(transformation(extent={{-20,-40},{20,0}})));
+  Tyre tyre(C_k=C_k, R=R, M=M, mu=mu, mu_slide=mu_slide, C_rr=C_rr, sigma=sigma, final v_low=0.5, final zeta=0.5) "Tyre" annotation(Placement(transformation(extent={{-20,-40},{20,0}})));
   Wheel wheel(I=I, omega(start=V_0/R), z(start=noEvent(if V_0 > 0 then 1 elseif V_0 < 0 then -1 else 0)), final reverse_braking=reverse_braking,
     final phi_brake=0.01, final T_brake=0.05) "Wheel, rolling without slip at the start" annotation(Placement(transformation(extent={{40,-40},{80,0}})));
 equation

@@ -4,7 +4,7 @@ model Road "Road with a grade"
   Interfaces.AccelerationOutput g_x "Gravity along the road, positive forward" annotation(Placement(transformation(extent={{90,30},{110,50}})));
   Interfaces.AccelerationOutput g_z "Gravity onto the road" annotation(Placement(transformation(extent={{90,-50},{110,-30}})));
 equation
-  g_x = -Units.g_n*grade/sqrt(1 + grade^2) "Sine of the slope angle from its tangent";
+  g_x = -grade*g_z "Sine of the slope angle from its tangent";
   g_z = Units.g_n/sqrt(1 + grade^2) "Cosine of the slope angle from its tangent";
   annotation(
     Icon(coordinateSystem(extent={{-100,-100},{100,100}}), graphics={

@@ -5,6 +5,7 @@ model Car "Car in front of somebody else's trailer (Sharp 1982)"
   parameter Units.Radius R_c = 0.35 "Wheel radius of the car";
   parameter Units.SlipStiffness C_kc = 400000 "Tyre force per unit slip, car";
   parameter Units.Friction mu = 1e9 "Friction between tyres and road; the paper's has no limit";
+  parameter Units.Share mu_slide(min=0.5, max=0.95) = 0.75 "Friction of wheels that slide, over mu";
   parameter Units.Length sigma(min=0, max=10000) = 0 "Relaxation length of the tyres; the paper\'s have none";
   parameter Units.Area CdA_c = 0 "Drag area of the car (drag coefficient times frontal area); the paper's has none";
   parameter Units.RollingResistance C_rr = 0 "Rolling resistance over load; the paper's has none";
@@ -16,7 +17,7 @@ model Car "Car in front of somebody else's trailer (Sharp 1982)"
   output Units.Acceleration a_car = car.body.a "Acceleration of the car, positive forward";
   output Units.Slip slip_car = car.tyre.slip "Longitudinal slip of the car's wheels, positive when braking";
   Components.HitchForce force "Hitch force" annotation(Placement(transformation(extent={{-60,-20},{-20,20}})));
-  Components.BrakedVehicle car(M=M_c, I=I_c, R=R_c, C_k=C_kc, V_0=V_0, mu=mu, sigma=sigma, CdA=CdA_c, C_rr=C_rr, final reverse_braking=1, final x_0=0) "Car" annotation(Placement(transformation(extent={{20,-20},{60,20}})));
+  Components.BrakedVehicle car(M=M_c, I=I_c, R=R_c, C_k=C_kc, V_0=V_0, mu=mu, mu_slide=mu_slide, sigma=sigma, CdA=CdA_c, C_rr=C_rr, final reverse_braking=1, final x_0=0) "Car" annotation(Placement(transformation(extent={{20,-20},{60,20}})));
   Components.Road road "Road" annotation(Placement(transformation(extent={{-80,70},{-60,90}})));
 equation
   connect(F_hitch, force.F) annotation(Line(points={{-120,0},{-60,0}}, color={0,0,127}));

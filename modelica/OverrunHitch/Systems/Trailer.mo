@@ -11,6 +11,8 @@ model Trailer "Trailer with an overrun brake behind somebody else's car (Sharp 1
   parameter Units.Length eps(min=0, max=10000) = 0 "Drawbar clearance (backlash)";
   parameter Units.Force F_pull_max(min=0, max=1e12) = 1e9 "Largest pull of the damper in a drawbar that is pushed in: 0 for none; the paper's damper has no limit";
   parameter Real rebound(final unit="1", min=0, max=1e9) = 1 "Damper coefficient while the drawbar springs back, over C";
+  parameter Units.Force F_f(min=0, max=1e6) = 0 "Dry friction of the drawbar's guide; the paper's has none";
+  parameter Units.Time tau_b(min=0, max=1000) = 0 "Lag of the trailer's brake torque behind the drawbar compression; the paper's has none";
   parameter Units.Force F_0(min=0, max=1e12) = 0 "Threshold: push up to which the drawbar gives by k_t alone and the trailer is not braked";
   parameter Units.Length x_2(min=0, max=10000) = 1000 "Drawbar compression beyond the clearance from which its stiffness is k_2";
   parameter Units.Stiffness k_2 = 5480 "Drawbar stiffness from x_2 on";
@@ -19,6 +21,7 @@ model Trailer "Trailer with an overrun brake behind somebody else's car (Sharp 1
   parameter Units.Length travel(min=0, max=10000) = 1000 "Drawbar compression at which it meets the buffer";
   parameter Units.Stiffness k_buffer = 548000 "Drawbar stiffness from there on";
   parameter Units.Friction mu = 1e9 "Friction between tyres and road; the paper's has no limit";
+  parameter Units.Share mu_slide(min=0.5, max=0.95) = 0.75 "Friction of wheels that slide, over mu";
   parameter Units.Length sigma(min=0, max=10000) = 0 "Relaxation length of the tyres; the paper\'s have none";
   parameter Units.Area CdA_t = 0 "Drag area of the trailer (drag coefficient times frontal area); the paper's has none";
   parameter Units.RollingResistance C_rr = 0 "Rolling resistance over load; the paper's has none";
@@ -41,10 +44,10 @@ model Trailer "Trailer with an overrun brake behind somebody else's car (Sharp 1
   output Units.Slip slip_trailer = trailer.tyre.slip "Longitudinal slip of the trailer's wheels, positive when braking";
   output Units.Torque trailer_brake_torque = trailer.wheel.tau "Brake torque on the trailer's lumped wheels, positive when it slows wheels that roll forward";
   Components.TowBall ball "Tow ball" annotation(Placement(transformation(extent={{40,-20},{80,20}})));
-  Components.BrakedVehicle trailer(M=M_t, I=I_t, R=R_t, C_k=C_kt, V_0=V_0, mu=mu, sigma=sigma, CdA=CdA_t, C_rr=C_rr, reverse_braking=reverse_braking, x_0=compression_start) "Trailer" annotation(Placement(transformation(extent={{-80,-20},{-40,20}})));
-  Components.Drawbar drawbar(k=k, k_t=k_t, C=C, eps=eps, F_pull_max=F_pull_max, rebound=rebound, F_0=F_0, x_2=x_2, k_2=k_2, x_3=x_3, k_3=k_3, travel=travel, k_buffer=k_buffer) "Drawbar" annotation(Placement(transformation(extent={{-20,-20},{20,20}})));
+  Components.BrakedVehicle trailer(M=M_t, I=I_t, R=R_t, C_k=C_kt, V_0=V_0, mu=mu, mu_slide=mu_slide, sigma=sigma, CdA=CdA_t, C_rr=C_rr, reverse_braking=reverse_braking, x_0=compression_start) "Trailer" annotation(Placement(transformation(extent={{-80,-20},{-40,20}})));
+  Components.Drawbar drawbar(k=k, k_t=k_t, C=C, eps=eps, F_pull_max=F_pull_max, rebound=rebound, F_f=F_f, F_0=F_0, x_2=x_2, k_2=k_2, x_3=x_3, k_3=k_3, travel=travel, k_buffer=k_buffer) "Drawbar" annotation(Placement(transformation(extent={{-20,-20},{20,20}})));
   Components.Road road "Road" annotation(Placement(transformation(extent={{-80,70},{-60,90}})));
-  Components.BrakeLinkage linkage(r=r, eps=drawbar.s_1) "Linkage from drawbar to trailer brakes" annotation(Placement(transformation(extent={{-20,-70},{-60,-50}})));
+  Components.BrakeLinkage linkage(r=r, eps=drawbar.s_1, tau_b=tau_b) "Linkage from drawbar to trailer brakes" annotation(Placement(transformation(extent={{-20,-70},{-60,-50}})));
 equation
   connect(v_car, ball.v) annotation(Line(points={{120,0},{80,0}}, color={0,0,127}));
   connect(grade, road.grade) annotation(Line(points={{-120,80},{-80,80}}, color={0,0,127}));
@@ -87,7 +90,9 @@ the step. <code>applied_force</code> tells which one is used; <code>F_hitch_hold
 <p>In Model Exchange, and before the first step, the three forces are equal and <code>coupling_energy</code> is 0. Their
 partial derivatives are in any case those of <code>F_hitch</code>, and 0.</p>
 <h2>Limits</h2>
-<p>By default no drag, no rolling resistance, no reversing lock-out (<code>CdA</code>, <code>C_rr</code>, <code>reverse_braking</code>). From 0.5 m/s on the tyre force follows the slip without lag. With
+<p>By default no drag, no rolling resistance, no reversing lock-out (<code>CdA</code>, <code>C_rr</code>, <code>reverse_braking</code>),
+no lag of the trailer's brakes and no dry friction (<code>tau_b</code>, <code>F_f</code>): a lag of 20 ms makes figure 8's
+combination shunt by itself. From 0.5 m/s on the tyre force follows the slip without lag. With
 the default <code>mu</code> nothing limits it: hard braking and slips beyond about 0.1 need a true one.</p>
 <h2>Source</h2>
 <p>R. S. Sharp, <em>Longitudinal Oscillations of Vehicle/Trailer Combinations Induced by Overrun Braking</em>, Vehicle

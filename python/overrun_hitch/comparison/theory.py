@@ -120,7 +120,7 @@ def _settled_part(run: xr.Dataset) -> _Run:
 
 def _beyond_theory(p: Parameters) -> str:
     """The first parameter that is not neutral and does not hold for large motions; "" if there is none."""
-    changed = p.off_default("small", "approximate", "neutral")
+    changed = p.off_default("small", "large", "approximate", "neutral")
     return f"{changed[0]} = {getattr(p, changed[0]):g} is beyond linear theory" if changed else ""
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from overrun_hitch.parameters import FASTEST, HitchError, Parameters, Quantities, quantity
 from overrun_hitch.theory.boundary import critical_damping
+from overrun_hitch.theory.dry_friction import onset_amplitude
 from overrun_hitch.theory.linear import check_known, compression_matrix, shunting_mode
 from overrun_hitch.theory.steady import braking_at, steady
 from overrun_hitch.theory.working_point import WorkingPoint, working_point
@@ -38,13 +39,14 @@ class Row:
     damping_ratio: float  # 1
     amplitude_ratio: float  # 1, |x_t / x_c|
     phase: float  # degrees, between x_t and x_c
+    onset_amplitude: float | None  # m, beyond which motions grow; None: no dry friction, or none grows
     self_excited: bool
 
 
 UNITS: Mapping[str, str] = {
     "V": "m/s", "C": "N.s/m", "growth_rate": "1/s", "frequency": "Hz", "damping_ratio": "1", "amplitude_ratio": "1",
     "phase": "deg", "self_excited": "1", "C_crit": "N.s/m", "A_over_A_c": "1", "deceleration": "m/s2", "D": "m",
-    "from": "m", "until": "m",
+    "from": "m", "until": "m", "onset_amplitude": "m",
 }  # fmt: skip
 
 
@@ -122,12 +124,13 @@ def _row(damped: Parameters, V: float) -> Row:
         amplitude_ratio=float(mode.amplitude_ratio),
         phase=float(mode.phase),
         self_excited=growth_rate > 0.0,
+        onset_amplitude=onset_amplitude(damped, V) if damped.F_f > 0.0 and growth_rate > 0.0 else None,
     )
 
 
 def document(result: Stability, files: Sequence[Path] = ()) -> dict[str, Any]:
     """Everything with units, for JSON; `files` are those written beside."""
-    known = Parameters.having("theory", "exact", "small", "approximate")
+    known = Parameters.having("theory", "exact", "small", "large", "approximate")
     taken = [name for name in known if name != "C"]  # which stands in the rows
     low, high = result.point.reach
     used = {name: getattr(result.parameters, name) for name in taken}

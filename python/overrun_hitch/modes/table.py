@@ -23,6 +23,9 @@ def show(result: Stability, paths: Sequence[Path]) -> None:
     for remark in _remarks(result):
         out.print(remark, soft_wrap=True)
     show_rows(out, COLUMNS, (_cells(row) for row in result.rows), map(_sentence, result.rows))
+    for row in result.rows:
+        if row.onset_amplitude is not None:
+            out.print(_onset(row, result.parameters.F_f), soft_wrap=True)
     for boundary in result.boundaries:
         limit = f"C_crit = {_number(boundary.C_crit, 4)} N.s/m" if boundary.C_crit > 0.0 else "stable without a damper"
         out.print(f"at {boundary.V:g} m/s: {limit}")
@@ -49,6 +52,13 @@ def _remarks(result: Stability) -> Iterable[str]:
             f"approximate for rebound = {p.rebound:g}: a damper of (1 + rebound)/2 C, equal in energy a cycle; "
             f"with the strongest damper here the damping ratio is off by {off}"
         )
+
+
+def _onset(row: Row, F_f: float) -> str:
+    return (
+        f"at {row.V:g} m/s with C = {row.C:g} N.s/m: friction F_f = {F_f:g} N lets only motions grow whose compression "
+        f"swings by more than {row.onset_amplitude:.3g} m"
+    )
 
 
 def _sentence(row: Row) -> str:

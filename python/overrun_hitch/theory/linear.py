@@ -4,7 +4,8 @@ The independent check of everything simulated: nothing here comes from the FMU. 
 speed V, so the matrices are those of the nonlinear model at zero slip and differ from it by terms of the order of the
 slip (about 0.01) when braking.
 
-Beyond the paper's parameters (docs/theory.md): tyres whose force lags by `sigma` add a state each, exactly. A damper
+Beyond the paper's parameters (docs/theory.md): tyres whose force lags by `sigma` add a state each, a brake torque that
+lags by `tau_b` another, exactly. A damper
 that is another in `rebound` is taken as one of C (1 + rebound)/2, which takes as much energy from a harmonic motion:
 its describing function, whatever the amplitude (A. Gelb and W. E. Vander Velde, Multiple-Input Describing Functions and
 Nonlinear System Design, McGraw-Hill 1968, chapter 2). What theory does not know is refused.
@@ -29,10 +30,13 @@ def equations_of_motion(parameters: Parameters, V: float, s: float = 0.0) -> tup
     """Mass, damping and stiffness matrix (4, 4) of M q'' + B q' + K q = 0, q = (x_c, x_t, theta_c, theta_t).
 
     The paper's homogeneous equations at the end of section 5. V: speed in m/s; s: weak spring from the car to ground
-    in N/m, which keeps the rigid-body mode off zero. HitchError for what they do not know, a lag `sigma` among it.
+    in N/m, which keeps the rigid-body mode off zero. HitchError for what they do not know, the lags `sigma` and `tau_b`
+    among it.
     """
-    if parameters.sigma > 0.0:
-        raise HitchError(f"the paper's equations do not know sigma = {parameters.sigma:g} m")
+    for name in ("sigma", "tau_b"):
+        if getattr(parameters, name) > 0.0:
+            value = f"{getattr(parameters, name):g} {parameters.unit(name)}"
+            raise HitchError(f"the paper's equations do not know {name} = {value}")
     mass, damping, stiffness = _without_tyres(parameters, V, s)
     p = parameters
     g_c, g_t = p.C_kc / V, p.C_kt / V
@@ -99,11 +103,15 @@ def compression_matrix(parameters: Parameters, V: float) -> Floats:
     """The dynamic matrix (5, 5) for (x_t - x_c, v_c, v_t, omega_c, omega_t); V in m/s.
 
     Place drops out: of the rigid body one simple zero eigenvalue is left, and the others are those of the paper.
-    With a lag `sigma` the slips of car and trailer are two more states (7, 7).
+    With a lag `sigma` the slips of car and trailer are two more states, with a lag `tau_b` the trailer's brake torque
+    is the last one.
     """
-    if parameters.sigma > 0.0:
-        return _lagging_matrix(parameters, V)
-    full = dynamic_matrix(parameters, V)
+    p = parameters
+    if p.tau_b > 0.0:
+        return _with_lagging_brake(compression_matrix(p.changed({"tau_b": 0.0}), V), p)
+    if p.sigma > 0.0:
+        return _with_lagging_tyres(p, V)
+    full = dynamic_matrix(p, V)
     matrix = np.zeros((5, 5))
     matrix[0, 1:3] = -1.0, 1.0
     # Without the weak spring forces depend on x_t - x_c alone, so the column of x_t is that of the difference.
@@ -112,7 +120,20 @@ def compression_matrix(parameters: Parameters, V: float) -> Floats:
     return matrix
 
 
-def _lagging_matrix(parameters: Parameters, V: float) -> Floats:
+def _with_lagging_brake(prompt: Floats, parameters: Parameters) -> Floats:
+    """`compression_matrix` (n + 1, n + 1) with tau_b > 0 from that without: tau_b T' = r (x_t - x_c) - T."""
+    p = parameters
+    n = len(prompt)
+    matrix = np.zeros((n + 1, n + 1))
+    matrix[:n, :n] = prompt
+    matrix[4, 0] += p.r / p.I_t  # what was there is the torque's
+    matrix[4, n] = -1.0 / p.I_t
+    matrix[n, 0] = p.r / p.tau_b
+    matrix[n, n] = -1.0 / p.tau_b
+    return matrix
+
+
+def _with_lagging_tyres(parameters: Parameters, V: float) -> Floats:
     """`compression_matrix` (7, 7) with sigma > 0: sigma slip' = slip speed - V slip, tyre force C_k slip."""
     p = parameters
     mass, damping, stiffness = _without_tyres(p, V)
@@ -212,7 +233,7 @@ def wheel_decay_rate(parameters: Parameters, V: float) -> float:
 
 
 def _modes(parameters: Parameters, speeds: Floats) -> tuple[Complexes, Complexes, NDArray[np.intp]]:
-    """Eigenvalues (n, 5), eigenvectors in columns (n, 5, 5) and the place (n,) of the shunting mode; 7 with sigma."""
+    """Eigenvalues (n, 5), eigenvectors in columns (n, 5, 5) and the place (n,) of the shunting mode; lags: to 8."""
     if parameters.k + parameters.r <= 0.0:
         raise HitchError("k = 0 N/m and r = 0 N.m/m leave no shunting mode: one of them must be greater than 0")
     values, right = np.linalg.eig(np.array([compression_matrix(parameters, float(value)) for value in speeds]))

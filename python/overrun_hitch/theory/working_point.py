@@ -2,7 +2,8 @@
 
 There the combination moves as one with the paper's linear drawbar, whose k and r are those of the piece (none of the
 brake within a threshold), and whose tyres have the slope that friction leaves them: the magic formula of Tyre.mo (H. B.
-Pacejka, Tyre and Vehicle Dynamics, 2nd ed. 2006, section 4.3) at the force that the deceleration asks of them.
+Pacejka, Tyre and Vehicle Dynamics, 2nd ed. 2006, section 4.3) at the force that the deceleration asks of them, its
+curvature such that a locked wheel (slip 1) brakes with mu_slide of the peak.
 """
 
 from __future__ import annotations
@@ -14,7 +15,8 @@ from overrun_hitch.parameters import DATUM, HitchError, Parameters, with_unit
 from overrun_hitch.theory.steady import braking_at, pieces
 
 g_n = 9.80665  # m/s2, standard acceleration of free fall
-C_x, E_x = 1.685, 0.344  # shape and curvature of the magic formula, those of Tyre.mo
+C_x = 1.685  # shape of the magic formula, as in Tyre.mo
+E_x1, X_peak = 0.344, 1.5329258834444335  # its curvature where a wheel locks before the peak, and the argument there
 PIECES = ("F_0", "x_2", "x_3", "travel")  # where the spring's stiffness changes, beside the clearance
 NEWTON_STEPS = 50  # from below, without overshooting: more than it takes up to the peak
 
@@ -47,12 +49,13 @@ def working_point(parameters: Parameters, deceleration: float = 0.0) -> WorkingP
     after = every[every.index(piece) + 1 :]
     push = piece.force + piece.slope * (D - piece.start)
     forces = (p.M_c * deceleration + push, p.M_t * deceleration - push) if deceleration > 0.0 else (0.0, 0.0)
+    asked = f"{deceleration:g} m/s2"
     linear = p.changed(
         {
             "k": piece.slope,
             "r": p.r if piece.start >= p.gives_from else 0.0,
-            "C_kc": p.C_kc * tyre_slope(forces[0], p.mu * p.M_c * g_n, f"{deceleration:g} m/s2"),
-            "C_kt": p.C_kt * tyre_slope(forces[1], p.mu * p.M_t * g_n, f"{deceleration:g} m/s2"),
+            "C_kc": p.C_kc * tyre_slope(forces[0], p.mu * p.M_c * g_n, curvature(p.C_kc, p.M_c, p), asked),
+            "C_kt": p.C_kt * tyre_slope(forces[1], p.mu * p.M_t * g_n, curvature(p.C_kt, p.M_t, p), asked),
         }
     )
     end = after[0].start if after else math.inf
@@ -63,7 +66,7 @@ def working_point(parameters: Parameters, deceleration: float = 0.0) -> WorkingP
 def check_one_piece(parameters: Parameters, what: str) -> None:
     """HitchError, naming it, for what large motions meet and `what` takes no notice of: limits, other stiffnesses."""
     names = (
-        *parameters.off_default("small"),
+        *parameters.off_default("small", "large"),
         *(name for name in PIECES if getattr(parameters, name) != getattr(DATUM, name)),
     )
     for name in names:
@@ -71,8 +74,19 @@ def check_one_piece(parameters: Parameters, what: str) -> None:
         raise HitchError(f"{what} does not know {name} = {value}; allowed: {getattr(DATUM, name):g}")
 
 
-def tyre_slope(force: float, most: float, asked: str) -> float:
-    """Slope of the tyre force over slip at `force` (N), over that at zero slip (1); `most` (N) is friction's limit.
+def curvature(C_k: float, M: float, parameters: Parameters) -> float:
+    """E_x (1) of tyres with C_k (N) under M (kg), that of Tyre.mo: force(slip = 1) = mu_slide mu M g_n."""
+    locked = C_k / (C_x * parameters.mu * M * g_n)
+    if locked <= X_peak:
+        return E_x1
+    bent = math.tan((math.pi - math.asin(parameters.mu_slide)) / C_x)
+    return (locked - bent) / (locked - math.atan(locked))
+
+
+def tyre_slope(force: float, most: float, E_x: float, asked: str) -> float:
+    """Slope of the tyre force over slip at `force` (N), over that at zero slip (1).
+
+    most (N) is friction's limit, E_x the curvature of the magic formula.
 
     HitchError, naming what is `asked`, where the limit does not allow it.
     """

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from overrun_hitch.parameters import CASES, DATUM, HitchError, Parameters
 from overrun_hitch.theory.linear import check_known, compression_matrix, shunting_mode
 from overrun_hitch.theory.steady import braking_at, inertias, steady
-from overrun_hitch.theory.working_point import C_x, E_x, tyre_slope, working_point
+from overrun_hitch.theory.working_point import C_x, curvature, tyre_slope, working_point
 
 DEVICE = {"eps": 0.01, "F_0": 150.0, "x_2": 0.02, "k_2": 9e3, "x_3": 0.035, "k_3": 2e4, "travel": 0.055}
 
@@ -53,14 +53,22 @@ def test_the_papers_drawbar_is_its_own(case: str, deceleration: float) -> None:
     assert point.reach == (0.0, math.inf)
 
 
-@given(X=st.floats(0.0, 1.5))
-def test_the_tyres_slope_is_that_of_the_magic_formula(X: float) -> None:
+@given(X=st.floats(0.0, 1.5), E_x=st.floats(0.344, 0.99))
+def test_the_tyres_slope_is_that_of_the_magic_formula(X: float, E_x: float) -> None:
     def force(X: float) -> float:
         return math.sin(C_x * math.atan(X - E_x * (X - math.atan(X))))
 
     step = 1e-6
     slope = (force(X + step) - force(X - step)) / (2.0 * step * C_x)
-    assert tyre_slope(force(X), 1.0, "") == pytest.approx(slope, abs=1e-8)
+    assert tyre_slope(force(X), 1.0, E_x, "") == pytest.approx(slope, abs=1e-8)
+
+
+@given(mu=st.floats(0.05, 3.0), mu_slide=st.floats(0.5, 0.95))
+def test_a_locked_wheel_brakes_with_its_share_of_the_peak(mu: float, mu_slide: float) -> None:
+    p = DATUM.changed({"mu": mu, "mu_slide": mu_slide})
+    X, E_x = p.C_kc / (C_x * mu * p.M_c * 9.80665), curvature(p.C_kc, p.M_c, p)
+    assert math.sin(C_x * math.atan(X - E_x * (X - math.atan(X)))) == pytest.approx(mu_slide, rel=1e-9)
+    assert curvature(p.C_kc, p.M_c, DATUM) == 0.344
 
 
 def test_friction_takes_what_the_tyres_hold() -> None:

@@ -1,4 +1,4 @@
-"""Every figure of the paper's results, recomputed, and the three beyond it."""
+"""Every figure of the paper's results, recomputed, and the four beyond it."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from threadpoolctl import threadpool_limits
 from overrun_hitch.modes.locus import LocusCurve, computed, draw_loci
 from overrun_hitch.paper.figures import boundary as boundary_figure
 from overrun_hitch.paper.figures import cycles as cycles_figure
+from overrun_hitch.paper.figures import device as device_figure
 from overrun_hitch.paper.figures import steady as steady_figure
 from overrun_hitch.paper.figures import stops as stops_figure
 from overrun_hitch.paper.study.curves import DAMPERS, Locus
@@ -39,6 +40,7 @@ def figures(study: Study, progress: Callable[[str], object] = lambda _: None) ->
         **{name: partial(_loci, loci) for name, loci in study.loci.items()},
         **{name: partial(_traces, run, LIMITS[name]) for name, run in study.runs.items()},
         "boundary": partial(boundary_figure.draw, study.boundary),
+        "device": partial(device_figure.draw, study.device),
         "cycles": partial(cycles_figure.draw, study.motions),
         "stops": partial(stops_figure.draw, study.stops),
     }

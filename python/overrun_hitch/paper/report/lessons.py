@@ -10,6 +10,7 @@ import numpy as np
 
 from overrun_hitch.paper.claims.claim import Claim
 from overrun_hitch.paper.study.beyond import CHECKED_RATIOS, CYCLE_SPEED, Boundary, Motion, designed
+from overrun_hitch.paper.study.device import FRICTION, LAGS, SPEEDS, TYPICAL_LAG, Device
 from overrun_hitch.paper.study.study import SteadyState, Study
 from overrun_hitch.parameters import CASES, FIGURES
 from overrun_hitch.theory.boundary import critical_damping
@@ -36,6 +37,8 @@ class Lesson:
 def lessons(study: Study, claims: Sequence[Claim]) -> list[Lesson]:
     """All of them, the most useful first."""
     return [
+        lag_decides(study.device),
+        friction_hides(study.device),
         top_speed(study.boundary),
         small_oscillations_decide(study.motions),
         abrupt(study.motions),
@@ -47,6 +50,33 @@ def lessons(study: Study, claims: Sequence[Claim]) -> list[Lesson]:
     ]
 
 
+def lag_decides(found: Device) -> Lesson:
+    """A brake that lags needs a damper by its lag."""
+    at = int(np.abs(LAGS - TYPICAL_LAG).argmin())
+    needed, prompt = found.C_crit[:, at], found.C_crit[:, 0]
+    C = FIGURES["8"].parameters.C
+    text = (
+        "The paper's brake answers at once; a real one follows its rods and cables, and that decides. With a lag of "
+        f"{MILLI * TYPICAL_LAG:g} ms case ii needs {needed[0]:.0f} N.s/m at {SPEEDS[0]:g} m/s and {needed[-1]:.0f} at "
+        f"{SPEEDS[-1]:g} m/s, without one {prompt[0]:.0f} and {prompt[-1]:.0f}. The combination of figure 8 (C = {C:g} "
+        f"N.s/m), which does not shunt, then does: it grows with {found.growth_rate:.2f} 1/s, and as the lag's share "
+        "does not fall with the speed, it slows to its stop shunting. Measure the lag, make it short (stiff rods, no "
+        "slack cable), and choose the damper for it."
+    )
+    holds = all(check.holds for check in found.checks) and bool(prompt[-1] < C < needed.min())
+    return Lesson("The lag of the brake decides, not the tyres.", text, holds)
+
+
+def friction_hides(found: Device) -> Lesson:
+    """Dry friction makes a hard onset."""
+    text = (
+        f"Friction of {FRICTION:g} N in the drawbar's guide lets the same combination pass every gentle trial: motions "
+        f"of the drawbar below {MILLI * found.onset:.0f} mm die out, those above grow, so that a hard brake step is "
+        "what brings it out. Try a hitch with hard steps, or with the guide freshly greased."
+    )
+    return Lesson("Dry friction hides it until the driver brakes hard.", text, 0.0 < found.onset < np.inf)
+
+
 def top_speed(found: Boundary) -> Lesson:
     """C_crit rises in proportion to the speed."""
     slope = found.C_crit / found.speeds[:, None]
@@ -54,7 +84,8 @@ def top_speed(found: Boundary) -> Lesson:
     at = {V: critical_damping(CASES["ii"], V) for V in (10.0, CYCLE_SPEED)}
     low, high = found.speeds[0], found.speeds[-1]
     text = (
-        "The least damper that keeps the combination from shunting by itself, C_crit, rises in proportion to the "
+        "Where the brake does not lag, the least damper that keeps the combination from shunting by itself, C_crit, "
+        "rises in proportion to the "
         f"speed: between {low:g} and {high:g} m/s C_crit / V varies by {100.0 * spread:.2g} % at most. Case ii needs "
         f"{at[10.0]:.0f} N.s/m at 10 m/s and {at[CYCLE_SPEED]:.0f} N.s/m at {CYCLE_SPEED:g} m/s. The stiffness of the "
         "tyres and the inertia of the wheels set the factor: what delays the brake's force is the time that slip "

@@ -23,7 +23,7 @@ from overrun_hitch.paper.figures.all import figures, stem
 from overrun_hitch.paper.report import captions
 from overrun_hitch.paper.report.lessons import Lesson, amplitude_error, decides, lessons
 from overrun_hitch.paper.report.svg import inline
-from overrun_hitch.paper.study import beyond, jacobian
+from overrun_hitch.paper.study import beyond, device, jacobian
 from overrun_hitch.paper.study.study import BRAKE_TORQUE, DAMPED, SETTINGS, Study
 from overrun_hitch.show.table import console, show_written
 from overrun_hitch.show.traces import rendered
@@ -114,6 +114,7 @@ def page(report: Report) -> str:
         settings=SETTINGS,
         brake_torque=BRAKE_TORQUE,
         beyond=beyond,
+        device=device,
         slowest=SLOWEST,
         default_command=COMMAND,
         amplitude_error=amplitude_error,
@@ -133,6 +134,7 @@ def _findings(study: Study, claims: Sequence[Claim]) -> list[Finding]:
     largest = jacobian.largest_difference(study.at_zero_slip)
     checks, motions, stops = study.boundary.checks, study.motions, study.stops
     good = sum(check.holds for check in checks)
+    lagging = study.device.checks
     return [
         Finding(claims_table.summary(claims), "claims", all(claim.verdict == "holds" for claim in claims)),
         Finding(
@@ -147,6 +149,12 @@ def _findings(study: Study, claims: Sequence[Claim]) -> list[Finding]:
             f"{100.0 * beyond.BESIDE:g} % more",
             "boundary-of-self-excitation",
             good == len(checks),
+        ),
+        Finding(
+            f"with a brake that lags the same holds at {sum(check.holds for check in lagging)} of {len(lagging)} "
+            f"points of lag and speed, {100.0 * device.BESIDE:g} % beside C_crit",
+            "device",
+            all(check.holds for check in lagging),
         ),
         Finding(
             f"of {len(motions)} oscillations at held speed, with clearances up to "

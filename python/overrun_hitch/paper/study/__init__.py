@@ -1,3 +1,3 @@
 """What figures, claims and page are made from, computed once."""
 
-__all__ = ["beyond", "curves", "jacobian", "study"]
+__all__ = ["beyond", "curves", "device", "jacobian", "study"]

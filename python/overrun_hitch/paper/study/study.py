@@ -17,6 +17,7 @@ from overrun_hitch.fmu.settings import TIME_LIMIT, Settings
 from overrun_hitch.fmu.unit import AnyUnit
 from overrun_hitch.paper.study.beyond import Boundary, Motion, Shunting, boundary, motions, stops
 from overrun_hitch.paper.study.curves import CURVES, Locus, V, locus
+from overrun_hitch.paper.study.device import Device, device
 from overrun_hitch.parameters import CASES, FIGURES, Parameters, Scenario
 from overrun_hitch.theory.steady import steady
 
@@ -60,6 +61,7 @@ class Study:
     boundary: Boundary
     motions: tuple[Motion, ...]  # with clearance, at held speed
     stops: tuple[Shunting, ...]  # to standstill
+    device: Device  # that lags and rubs
 
 
 def study(fmu: Path, progress: Callable[[str], object] = lambda _: None, time_limit: float = TIME_LIMIT) -> Study:
@@ -86,6 +88,8 @@ def study(fmu: Path, progress: Callable[[str], object] = lambda _: None, time_li
         braking = at_steady_braking(unit, FIGURES["8"].parameters, V, BRAKE_TORQUE)
         progress("boundary of self-excitation")
         chart = boundary(unit)
+        progress("a brake that lags")
+        lagging = device(unit)
         progress("stops to standstill")
         stopped = stops(unit)
         return Study(
@@ -102,6 +106,7 @@ def study(fmu: Path, progress: Callable[[str], object] = lambda _: None, time_li
             boundary=chart,
             motions=motions(unit, progress),
             stops=stopped,
+            device=lagging,
         )
 
 
