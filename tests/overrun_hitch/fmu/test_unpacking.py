@@ -48,7 +48,7 @@ def test_a_folder_and_a_file_with_awkward_names(awkward: Path, monkeypatch: pyte
 
 
 @pytest.mark.skipif(os.name == "nt", reason="paths are Unicode there")
-@pytest.mark.parametrize(("utf8", "said"), [("1", ""), ("0", UNWRITABLE)])
+@pytest.mark.parametrize(("utf8", "said"), [pytest.param("1", "", marks=pytest.mark.full), ("0", UNWRITABLE)])
 def test_the_locale_is_blamed_and_not_the_fmu(utf8: str, said: str, awkward: Path) -> None:
     environment = {**os.environ, "LC_ALL": "POSIX", "PYTHONUTF8": utf8, "PYTHONCOERCECLOCALE": "0"}
     command = [sys.executable, "-c", OPENING, awkward.name]
