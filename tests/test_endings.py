@@ -62,7 +62,7 @@ def test_output_that_arrives_nowhere(
         assert re.fullmatch(r"\w+: standard output: No space left on device\n", capsys.readouterr().err)
 
 
-@pytest.mark.parametrize("buffering", ["", "1"])
+@pytest.mark.parametrize("buffering", ["", pytest.param("1", marks=pytest.mark.full)])
 @pytest.mark.parametrize("module", ["overrun_hitch", "fmu_build"])
 def test_as_processes_of_their_own(module: str, buffering: str) -> None:
     """What Python itself does at the end adds neither a word nor another status."""
@@ -80,9 +80,9 @@ def test_as_processes_of_their_own(module: str, buffering: str) -> None:
     ("arguments", "imported"),
     [
         (["overrun_hitch", "--help"], "typer"),
-        (["overrun_hitch", "stability"], "scipy"),
+        pytest.param(["overrun_hitch", "stability"], "scipy", marks=pytest.mark.full),
         (["fmu_build", "--help"], "typer"),
-        (["fmu_build", ".", "A", "-o", "a.fmu"], "rumoca"),
+        pytest.param(["fmu_build", ".", "A", "-o", "a.fmu"], "rumoca", marks=pytest.mark.full),
     ],
 )
 def test_ctrl_c_while_it_imports(arguments: list[str], imported: str, tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ from overrun_hitch.parameters import CASES, HitchError, Parameters, Scenario
 from overrun_hitch.theory.describing_function import predicted_cycles
 from overrun_hitch.theory.envelope import integrated_compression, predicted_amplitude, turning_speed
 
-TIME = np.linspace(0.0, 5.0, 3)
+TIME = np.linspace(0.0, 1.0, 3)
 BASE = CASES["ii"].changed({"C": 100.0, "eps": 0.1, "compression_start": 0.13})  # shunts above 33 m/s
 NEVER = {"reverse_braking"}  # counts backward alone
 BEYOND = {"k_2", "k_3", "k_buffer"}  # count from x_2, x_3, travel on, which are out of reach
