@@ -229,7 +229,8 @@ class ExpressionReader:
 
     def _several(self, body: Mapping[str, Any]) -> Value:
         """``(a, b) = f(x)``, as the residuals a - y1, b - y2; a place may be empty."""
-        targets = [None if t is None else self.read(t) for t in body["lhs"]["Tuple"]["elements"]]
+        places = body["lhs"]["Tuple"]["elements"]
+        targets = [None if t is None or "Empty" in t else self.read(t) for t in places]
         values = self.outputs(body["rhs"]["FunctionCall"])
         pairs = [(t, v) for t, v in zip(targets, values, strict=False) if t is not None]
         return tuple(BINARY["Sub"](target, value) for target, value in pairs)

@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 from ..errors import BuildError
 from ..ir.models import Simulation
 from .annotations import class_text, read_experiment
+from .audit import refuse_lost_modifiers
 from .loading import load
+from .used_classes import UsedClasses
 
 REFERENCE_TOLERANCES = (1e-9, 1e-11)  # relative; the difference between the two tells the accuracy
 
@@ -20,9 +22,10 @@ REFERENCE_TOLERANCES = (1e-9, 1e-11)  # relative; the difference between the two
 def simulate(path: Path, class_name: str) -> Simulation:
     """rumoca's own simulation of the class ``class_name`` over the time of its experiment annotation.
 
-    Raises BuildError where it does not compile, does not run, or has no experiment annotation.
+    Raises BuildError where it does not compile or loses a modifier, does not run, or has no experiment annotation.
     """
     model, sources = load(path, class_name)
+    refuse_lost_modifiers(model.to_dict("flat"), sources, UsedClasses(sources.texts_by_number(), class_name))
     experiment = read_experiment(class_text(class_name, sources.texts()))
     if experiment.stop_time is None or experiment.interval is None:
         raise BuildError(

@@ -214,3 +214,25 @@ def test_tangent_against_differences_and_adjoint_against_tangent(
                 model["x"] = before / 2
         difference = (np.array(values[0]) - np.array(values[1])) / (2 * step)
         np.testing.assert_allclose(tangents[row], difference, rtol=1e-7, atol=1e-8)
+
+
+def test_outputs_of_a_function_that_are_left_out(compiled_model: Compile) -> None:
+    text = """
+model M
+  function f
+    input Real u;
+    output Real a = 2*u;
+    output Real b = 3*u;
+    output Real c = 4*u;
+  algorithm
+  end f;
+  Real x;
+  Real z;
+  Real w(start=1, fixed=true);
+equation
+  der(w) = -w;
+  (x, , z) = f(w);
+end M;"""
+    model = compiled_model(text)
+    model.outputs()
+    assert (model["x"], model["z"]) == (2.0, 4.0)
