@@ -70,6 +70,10 @@ def integrated_compression(scenario: Scenario, time: Floats) -> Floats:
     A = steady(p, scenario.brake_torque).A
     torque = np.array([0.0, 0.0, 0.0, -scenario.brake_torque / p.I_c, 0.0])
     start = np.array([p.compression_start - p.eps, p.V_0, p.V_0, p.V_0 / p.R_c, p.V_0 / p.R_t])
+    nominal = NOMINAL
+    if p.tau_b > 0.0:  # the trailer's brake has followed
+        torque, start = np.append(torque, 0.0), np.append(start, p.r * start[0])
+        nominal = np.append(NOMINAL, p.r * NOMINAL[0])
     speed(scenario, time)
     # Tyres alone depend on V, in proportion to 1/V: two matrices hold all others.
     tyres = 2.0 * (compression_matrix(p, 1.0) - compression_matrix(p, 2.0))
@@ -86,7 +90,7 @@ def integrated_compression(scenario: Scenario, time: Floats) -> Floats:
         jac=matrix,
         t_eval=time,
         rtol=RELATIVE_TOLERANCE,
-        atol=RELATIVE_TOLERANCE * NOMINAL,
+        atol=RELATIVE_TOLERANCE * nominal,
     )
     return np.asarray(solution.y[0] + p.eps)
 

@@ -30,7 +30,7 @@ def points(axes: Axes, marker: str) -> np.ndarray:
 
 
 def test_they_are_all_there(paper_figures: dict[str, Figure]) -> None:
-    assert list(paper_figures) == ["3", "4", "5", *TRACES, "boundary", "cycles", "stops"]
+    assert list(paper_figures) == ["3", "4", "5", *TRACES, "boundary", "cycles", "device", "stops"]
     assert stem("6a") == "figure-6a" and stem("cycles") == "cycles"
     for figure in paper_figures.values():
         # Inner panels of a stack share the axis below.

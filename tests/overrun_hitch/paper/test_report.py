@@ -118,7 +118,7 @@ def test_ids_are_unique_and_lead_somewhere(text: str, page: Page) -> None:
 
 def test_every_figure_is_there_with_words(page: Page) -> None:
     figures = [attributes["id"] for tag, attributes in page.tags if tag == "figure"]
-    assert figures == [*PICTURES, "boundary", "cycles", "stops"]
+    assert figures == [*PICTURES, "boundary", "cycles", "device", "stops"]
     drawn = [attributes for tag, attributes in page.tags if tag == "svg"]
     assert len(drawn) == len(figures)
     for name, attributes in zip(figures, drawn, strict=True):
@@ -196,7 +196,7 @@ def test_eigenvalues_by_name(paper_study: Study) -> None:
 
 def test_every_sentence_for_a_designer_is_borne_out(paper_study: Study, page: Page) -> None:
     found = lessons(paper_study, all_claims(paper_study))
-    assert len(found) == 8 and all(lesson.holds for lesson in found)
+    assert len(found) == 10 and all(lesson.holds for lesson in found)
     assert all(lesson.heading in page.texts["designer"] for lesson in found)
     assert "a trailer brake without lag" in " ".join(page.texts["designer"].split())
     assert "bear this out" not in page.texts["designer"] and "nan" not in page.texts["designer"]
@@ -243,10 +243,14 @@ def test_each_finding_can_fail(paper_study: Study, made: Callable[..., report.Re
     first, *others = paper_study.stops
     envelope = dataclasses.replace(first.in_theory, amplitude=1.004 * first.in_theory.amplitude)
     stops = (dataclasses.replace(first, in_theory=envelope), *others)
-    changes = ({"at_zero_slip": engaged}, {"boundary": boundary}, {"motions": cycles}, {"stops": stops})
+    lagging = dataclasses.replace(paper_study.device.checks[0], growth_above=1.0)
+    device = dataclasses.replace(paper_study.device, checks=(lagging, *paper_study.device.checks[1:]))
+    changes = (
+        {"at_zero_slip": engaged}, {"boundary": boundary}, {"device": device}, {"motions": cycles}, {"stops": stops},
+    )  # fmt: skip
     for place, change in enumerate(changes, start=1):
         found = made(dataclasses.replace(paper_study, **change))
-        assert [finding.holds for finding in found.findings] == [n != place for n in range(5)]
+        assert [finding.holds for finding in found.findings] == [n != place for n in range(6)]
         assert not found.holds and "does not hold" in Page(report.page(found)).texts["summary"]
 
 
@@ -264,7 +268,7 @@ def test_the_command_writes_the_page(
     assert "hitch report --fmu &#39;my unit.fmu&#39; --output" in written
     assert len(written) == pytest.approx(len(text), rel=0.01)
     out = " ".join(capsys.readouterr().out.split())
-    assert out.count("holds:") == 5 and "index.html" in out
+    assert out.count("holds:") == 6 and "index.html" in out
 
 
 def test_interrupted(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

@@ -40,8 +40,8 @@ def figures(study: Study, progress: Callable[[str], object] = lambda _: None) ->
         **{name: partial(_loci, loci) for name, loci in study.loci.items()},
         **{name: partial(_traces, run, LIMITS[name]) for name, run in study.runs.items()},
         "boundary": partial(boundary_figure.draw, study.boundary),
-        "device": partial(device_figure.draw, study.device),
         "cycles": partial(cycles_figure.draw, study.motions),
+        "device": partial(device_figure.draw, study.device),
         "stops": partial(stops_figure.draw, study.stops),
     }
     drawn = {}

@@ -62,17 +62,17 @@ BEYOND: Mapping[str, tuple[str, str]] = {
         "C_crit is in proportion to the speed. To the right they become level: a stronger brake does not ask for "
         "more.",
     ),
-    "device": (
-        "C_crit of case ii over the lag of the trailer's brake",
-        "A brake that answers late pushes when it should have let go. Some milliseconds of lag take more damper than "
-        "all that the wheels' own lag takes at 40 m/s, and the lines of all speeds run together: with a lag, a "
-        "combination shunts at any speed, down to the stop. Dotted: the damper of figure 8.",
-    ),
     "cycles": (
         "Sustained oscillations of case ii at 40 m/s",
         "Lines: predicted by the describing function, as far as it predicts any. Marks: what the FMU came to after "
         "three minutes, on the axis at 0 where it faded, under an arrow where it ran away. Lines and marks of the "
         "three clearances lie on one another where nothing strikes the tension stop.",
+    ),
+    "device": (
+        "C_crit of case ii over the lag of the trailer's brake",
+        "A brake that answers late pushes when it should have let go. Some milliseconds of lag take more damper than "
+        "all that the wheels' own lag takes at 40 m/s, and the lines of all speeds run together: with a lag, a "
+        "combination shunts at any speed, down to the stop. Dotted: the damper of figure 8.",
     ),
     "stops": (
         "Case ii from 40 m/s to rest",

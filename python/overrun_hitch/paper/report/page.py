@@ -134,7 +134,6 @@ def _findings(study: Study, claims: Sequence[Claim]) -> list[Finding]:
     largest = jacobian.largest_difference(study.at_zero_slip)
     checks, motions, stops = study.boundary.checks, study.motions, study.stops
     good = sum(check.holds for check in checks)
-    lagging = study.device.checks
     return [
         Finding(claims_table.summary(claims), "claims", all(claim.verdict == "holds" for claim in claims)),
         Finding(
@@ -150,12 +149,7 @@ def _findings(study: Study, claims: Sequence[Claim]) -> list[Finding]:
             "boundary-of-self-excitation",
             good == len(checks),
         ),
-        Finding(
-            f"with a brake that lags the same holds at {sum(check.holds for check in lagging)} of {len(lagging)} "
-            f"points of lag and speed, {100.0 * device.BESIDE:g} % beside C_crit",
-            "device",
-            all(check.holds for check in lagging),
-        ),
+        _lagging(study.device.checks),
         Finding(
             f"of {len(motions)} oscillations at held speed, with clearances up to "
             f"{max(motion.eps for motion in motions):g} m, those with more damping than C_crit fade on the FMU, the "
@@ -172,6 +166,15 @@ def _findings(study: Study, claims: Sequence[Claim]) -> list[Finding]:
             all(stop.agrees for stop in stops),
         ),
     ]
+
+
+def _lagging(checks: Sequence[device.LagCheck]) -> Finding:
+    good = sum(check.holds for check in checks)
+    text = (
+        f"with a brake that lags the same holds at {good} of {len(checks)} points of lag and speed, "
+        f"{100.0 * device.BESIDE:g} % beside C_crit"
+    )
+    return Finding(text, "lag", good == len(checks))
 
 
 def _picture(name: str, figure: Figure, title: str, caption: str) -> Picture:

@@ -79,10 +79,7 @@ def study(fmu: Path, progress: Callable[[str], object] = lambda _: None, time_li
         progress("steady deceleration: the nine cases")
         states = _steady_parameters()
         steady_fmu = {name: _measured_steady(unit, parameters) for name, parameters in states.items()}
-        loci = {}
-        for figure, curves in CURVES.items():
-            progress(f"root loci: figure {figure}")
-            loci[figure] = tuple(locus(unit, curve) for curve in curves)
+        loci = _loci(unit, progress)
         progress("linearisation")
         engaged = {name: at_zero_slip(unit, case.changed({"C": DAMPED}), V) for name, case in CASES.items()}
         braking = at_steady_braking(unit, FIGURES["8"].parameters, V, BRAKE_TORQUE)
@@ -108,6 +105,14 @@ def study(fmu: Path, progress: Callable[[str], object] = lambda _: None, time_li
             stops=stopped,
             device=lagging,
         )
+
+
+def _loci(unit: AnyUnit, progress: Callable[[str], object]) -> dict[str, tuple[Locus, ...]]:
+    found = {}
+    for figure, curves in CURVES.items():
+        progress(f"root loci: figure {figure}")
+        found[figure] = tuple(locus(unit, curve) for curve in curves)
+    return found
 
 
 def _steady_parameters() -> dict[str, Parameters]:
