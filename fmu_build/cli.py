@@ -31,6 +31,12 @@ def build_fmu(
     platforms: Annotated[
         str, typer.Option(help="host, all, or names with commas between them.", metavar="host|all|NAME,NAME")
     ] = "host",
+    libraries: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--library", help="A library's folder, or one with libraries in it; may be repeated.", metavar="DIR"
+        ),
+    ] = None,
     verbose: Annotated[bool, typer.Option("--verbose", help="Show each stage and its time.")] = False,
 ) -> None:
     """Build an FMU from Modelica, for this machine or for others."""
@@ -38,13 +44,13 @@ def build_fmu(
     from .pipeline import build, show
 
     if stage is not None and output is None:
-        typer.echo(show(modelica, class_name, stage), nl=False)
+        typer.echo(show(modelica, class_name, stage, libraries or ()), nl=False)
         return
     if output is None or stage is not None:
         raise BuildError("name either the FMU to write (-o OUT.fmu) or a stage to look at (--show STAGE)")
     names = [name.strip() for name in platforms.split(",") if name.strip()]
     with _progress(shown=names != ["host"], verbose=verbose) as progress:
-        build(modelica, class_name, output, fmi, names, progress)
+        build(modelica, class_name, output, fmi, names, progress, libraries=libraries or ())
     typer.echo(output)
 
 

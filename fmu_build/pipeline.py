@@ -52,18 +52,20 @@ def build(
     platforms: Sequence[str] = ("host",),
     progress: Callable[[str], object] = lambda _: None,
     references: bool = True,
+    libraries: Sequence[Path] = (),
 ) -> None:
     """Build the FMU ``output`` of ``class_name`` in the file or library folder ``modelica``, for FMI version 2 or 3.
 
     ``platforms`` are names that ``named_platforms`` takes; ``progress`` is told the name of each stage that begins.
-    Without ``references`` the results that another tool computed are left out.
+    Without ``references`` the results that another tool computed are left out. Other libraries are looked for in the
+    folders ``libraries``, each a library or a folder with libraries in it.
     Raises BuildError; then nothing is written.
     """
     chosen = named_platforms(platforms)
     check_output(output)
     identifier = model_identifier(class_name)
     progress("reading Modelica")
-    flat = flatten(modelica, class_name)
+    flat = flatten(modelica, class_name, libraries)
     progress("sorting equations")
     model = sort(initialize(derive(lower(flat))))
     progress("differentiating")
@@ -77,19 +79,19 @@ def build(
     progress("describing")
     interface = expose(model, jacobian, identifier, ports)
     examples = flat.examples if references else ()
-    simulations = [simulate(modelica, example) for example in examples]
+    simulations = [simulate(modelica, example, libraries) for example in examples]
     files = contents(flat, interface, generated, simulations, fmi)
-    libraries = binaries(files, identifier, chosen, fmi, progress)
+    compiled = binaries(files, identifier, chosen, fmi, progress)
     progress("packing")
-    write_fmu(output, files | libraries)
+    write_fmu(output, files | compiled)
 
 
-def show(modelica: Path, class_name: str, stage: str) -> str:
+def show(modelica: Path, class_name: str, stage: str, libraries: Sequence[Path] = ()) -> str:
     """What a stage makes of ``class_name``, as text for a person: ``flat``, ``sorted``, ``jacobian`` or ``c``.
 
     Raises BuildError where a stage on the way fails.
     """
-    flat = flatten(modelica, class_name)
+    flat = flatten(modelica, class_name, libraries)
     if stage == "flat":
         return show_flat(flat)
     model = sort(initialize(derive(lower(flat))))

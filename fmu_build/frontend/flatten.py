@@ -7,7 +7,7 @@ tree.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -42,13 +42,13 @@ from .used_classes import UsedClasses
 from .values import Value, elements
 
 
-def flatten(path: Path, class_name: str) -> FlatModel:
-    """The class ``class_name`` of the Modelica file or library folder ``path``, flattened.
+def flatten(path: Path, class_name: str, libraries: Sequence[Path] = ()) -> FlatModel:
+    """The class ``class_name`` of the Modelica file or library folder ``path``, flattened; ``libraries`` as load() has
+    them.
 
     Raises BuildError, with file and line, where the Modelica does not compile or uses what is not supported.
     """
-    model, sources = load(path, class_name)
-    flat = model.to_dict("flat")
+    flat, sources = load(path, class_name, libraries)
     classes = UsedClasses(sources.texts_by_number(), class_name)
     refuse_lost_modifiers(flat, sources, classes)
     flat = rescoped(flat, sources, classes)

@@ -1,107 +1,104 @@
-"""Modelica files to rumoca's compiled model.
+"""Modelica files to rumoca's flat form and to its simulation, by a process of its own.
 
-Two of its habits are handled here: many of its errors carry no place, so we look the offending name up in the sources;
-and it reads every .mo file beside the one it is given, as Modelica's directory rules allow.
+rumoca is young: some classes make it overflow its stack or run for ever. It can take no more with it than that process,
+whose end we tell.
 """
 
 from __future__ import annotations
 
-import difflib
+import json
+import os
 import re
-import shutil
+import signal
+import subprocess
+import sys
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-
-import rumoca
+from typing import Any
 
 from ..errors import BuildError
 from .sources import Sources
 
+TIME_LIMIT = 600.0  # s; the whole Modelica Standard Library takes rumoca 25
+# `redeclare model extends Inner`, where rumoca overflows its stack.
+_CLASS_EXTENDS = re.compile(r"^[^\"/]*\b(?:model|block|class|record|connector|package|function|type)\s+extends\b")
 
-def load(path: Path, class_name: str) -> tuple[rumoca.Model, Sources]:
-    """The class ``class_name`` of a file or a library's folder, compiled, and its Modelica text.
 
+def load(path: Path, class_name: str, libraries: Sequence[Path] = ()) -> tuple[dict[str, Any], Sources]:
+    """The flat form of the class ``class_name`` of a file or a library's folder, and the Modelica text behind it.
+
+    Other libraries are looked for in the folders ``libraries``, and in those that MODELICAPATH names.
     Raises BuildError, with file and line as far as they are known, where it does not compile.
     """
+    entry = _entry(path)
+    answer = _ask(entry, class_name, libraries)
+    files = {number: (name, text) for number, name, text in answer["files"]}
+    return answer["flat"], Sources(files, root=entry.parent)
+
+
+def run(
+    path: Path, class_name: str, libraries: Sequence[Path], times: Sequence[float], tolerances: Sequence[float]
+) -> dict[str, Any]:
+    """rumoca's simulation of a class: ``parameters``, numbers by name, and ``runs``, one for each tolerance, with the
+    ``times`` of its rows and ``columns`` by name.
+
+    Raises BuildError where it does not compile or does not run.
+    """
+    return _ask(_entry(path), class_name, libraries, times=list(times), tolerances=list(tolerances))
+
+
+def _entry(path: Path) -> Path:
     entry = path / "package.mo" if path.is_dir() else path
     if not entry.is_file():
         raise BuildError(f"{entry}: no such Modelica file; give a .mo file or a library's folder with its package.mo")
-    try:
-        if (entry.parent / "package.mo").exists():
-            model, files = _compiled(entry, class_name)
-        else:
-            model, files = _compiled_alone(entry, class_name)
-    except rumoca.RumocaError as error:
-        raise BuildError(_located_message(str(error), entry, class_name)) from None
-    except BaseException as error:  # what rumoca throws when it runs into a mistake of its own is no Exception
-        if type(error).__name__ != "PanicException":
-            raise
-        raise BuildError(f"{entry}: {class_name}: rumoca failed in it: {error}") from None
-    return model, Sources({file_id: (name, text) for file_id, name, text in files}, root=entry.parent)
+    return entry
 
 
-def _compiled(entry: Path, class_name: str) -> tuple[rumoca.Model, list[tuple[int, str, str]]]:
-    """The compiled class, and number, name and text of each file that was read."""
-    model = rumoca.Session().load(str(entry), model=class_name)
-    return model, model.to_dict("dae")["source_map"]["files"]
-
-
-def _compiled_alone(entry: Path, class_name: str) -> tuple[rumoca.Model, list[tuple[int, str, str]]]:
-    """The same of a file by itself, if that will do: among the files beside it, which rumoca reads as well, there may
-    be unrelated ones with classes of the same name."""
+def _ask(entry: Path, class_name: str, libraries: Sequence[Path], **simulation: list[float]) -> dict[str, Any]:
+    """What the process answers."""
+    request: dict[str, Any] = {"entry": str(entry), "class_name": class_name, "libraries": [*map(_library, libraries)]}
+    request |= {"times": [], "tolerances": []} | simulation
     with tempfile.TemporaryDirectory(prefix="fmu_build-") as folder:
-        copy = Path(folder) / entry.name
-        shutil.copyfile(entry, copy)
+        answer = Path(folder) / "answer.json"
+        answer.with_name("request.json").write_text(json.dumps(request), encoding="utf-8")
+        command = [sys.executable, "-m", f"{__package__}.rumoca_process", folder]
+        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
         try:
-            model, files = _compiled(copy, class_name)
-            return model, [(number, name.replace(str(copy), str(entry)), text) for number, name, text in files]
-        except rumoca.RumocaError as error:
-            alone = str(error).replace(str(copy), str(entry))
-    try:
-        return _compiled(entry, class_name)
-    except rumoca.RumocaError as error:
-        text = alone if "Duplicate class" in str(error) else str(error)
-        raise BuildError(_located_message(text, entry, class_name)) from None
+            ended = subprocess.run(
+                command, env=environment, capture_output=True, text=True, check=False, timeout=TIME_LIMIT
+            )
+        except subprocess.TimeoutExpired:
+            raise BuildError(f"{entry}: {class_name}: rumoca does not come to an end within {TIME_LIMIT:g} s") from None
+        if ended.returncode != 0:
+            raise BuildError(_death(ended, entry, class_name))
+        found: dict[str, Any] = json.loads(answer.read_text(encoding="utf-8"))
+    if "error" in found:
+        raise BuildError(found["error"])
+    return found
 
 
-def _located_message(text: str, entry: Path, class_name: str) -> str:
-    """One line with file and line for the text of a rumoca error."""
-    first_line = text.splitlines()[0]
-    message = re.sub(r"^\S+ could not be compiled: |^\w+ failed: \S+ failed in \w+: ", "", first_line)
-    if place := re.search(r" \[(\S+:\d+):\d+\]", message):
-        return f"{place.group(1)}: {message.replace(place.group(0), '')}"
+def _library(folder: Path) -> str:
+    if not folder.is_dir():
+        raise BuildError(
+            f"{folder}: no such folder; --library names the folder of a library or one that libraries are in"
+        )
+    return str(folder)
+
+
+def _death(ended: subprocess.CompletedProcess[str], entry: Path, class_name: str) -> str:
+    """How the process ended, and the place that may be why."""
+    if ended.returncode < 0:
+        how = f"was ended by signal {-ended.returncode} ({signal.Signals(-ended.returncode).name})"
+    else:
+        last = ended.stderr.strip().splitlines()[-1:]
+        how = f"failed ({''.join(last) or f'status {ended.returncode}'})"
     files = sorted(entry.parent.rglob("*.mo")) if entry.name == "package.mo" else [entry]
     for file in files:
-        for diagnostic in rumoca.validate(str(file)):
-            if place := re.search(r"\[(.+?:\d+):\d+\]", diagnostic.message):
-                return f"{place.group(1)}: {message}"
-    for name in re.findall(r"['`]([^'`]+)['`]|(\w+)\(\.\.\.\)|(\w+) is not a state", message):
-        word = re.compile(rf"(?<![\w.]){re.escape(''.join(name))}(?!\w)")
-        for file in files:
-            for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), start=1):
-                if word.search(line.partition("//")[0]):
-                    return f"{file}:{number}: {message}"
-    if "resolve/parse failed" in message:
-        meant = _alike(class_name, files)
-        return f"{entry}: no class {class_name} in it{f'; did you mean {meant}?' if meant else ''}"
-    return f"{entry}: {class_name}: {message}"
-
-
-def _alike(class_name: str, files: Sequence[Path]) -> str:
-    """The classes of these files that were hardly meant otherwise: called so elsewhere, or almost so."""
-    classes = {name.casefold(): name for file in files for name in _classes(file.read_text(encoding="utf-8"))}
-    asked = class_name.casefold()
-    called_so = [name for name in classes if name.rpartition(".")[2] == asked.rpartition(".")[2]]
-    close = called_so or difflib.get_close_matches(asked, classes, n=3, cutoff=0.8)
-    return " or ".join(classes[name] for name in close[:3])
-
-
-def _classes(text: str) -> Iterator[str]:
-    """Full names of the class in a file and of those in it, as far as they can be told without a parser."""
-    within = re.search(r"^\s*within\s+([\w.]+)\s*;", text, re.MULTILINE)
-    declared = r"^\s*(?:partial\s+)?(?:model|block|class|package)\s+(\w+)"
-    first, *others = re.findall(declared, text, re.MULTILINE) or [""]
-    outer = f"{within[1]}.{first}" if within else first
-    yield outer
-    yield from (f"{outer}.{other}" for other in others)
+        for number, line in enumerate(file.read_text(encoding="utf-8", errors="replace").splitlines(), start=1):
+            if _CLASS_EXTENDS.search(line):
+                return (
+                    f"{file}:{number}: rumoca {how} on {class_name}: it does not survive `class extends`; write a class"
+                    " that extends the old one under a name of its own, and redeclare to it"
+                )
+    return f"{entry}: {class_name}: rumoca {how} on it"

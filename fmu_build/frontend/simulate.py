@@ -2,30 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-import rumoca
 from numpy.typing import NDArray
 
 from ..errors import BuildError
 from ..ir.models import Simulation
 from .annotations import class_text, read_experiment
 from .audit import refuse_lost_modifiers
-from .loading import load
+from .loading import load, run
 from .used_classes import UsedClasses
 
 REFERENCE_TOLERANCES = (1e-9, 1e-11)  # relative; the difference between the two tells the accuracy
 
 
-def simulate(path: Path, class_name: str) -> Simulation:
+def simulate(path: Path, class_name: str, libraries: Sequence[Path] = ()) -> Simulation:
     """rumoca's own simulation of the class ``class_name`` over the time of its experiment annotation.
 
     Raises BuildError where it does not compile or loses a modifier, does not run, or has no experiment annotation.
     """
-    model, sources = load(path, class_name)
-    refuse_lost_modifiers(model.to_dict("flat"), sources, UsedClasses(sources.texts_by_number(), class_name))
+    flat, sources = load(path, class_name, libraries)
+    refuse_lost_modifiers(flat, sources, UsedClasses(sources.texts_by_number(), class_name))
     experiment = read_experiment(class_text(class_name, sources.texts()))
     if experiment.stop_time is None or experiment.interval is None:
         raise BuildError(
@@ -34,7 +35,8 @@ def simulate(path: Path, class_name: str) -> Simulation:
     start = experiment.start_time or 0.0
     count = round((experiment.stop_time - start) / experiment.interval)
     times = np.linspace(start, experiment.stop_time, count + 1)
-    coarse, fine = (_columns(model, times, tolerance) for tolerance in REFERENCE_TOLERANCES)
+    found = run(path, class_name, libraries, times.tolist(), REFERENCE_TOLERANCES)
+    coarse, fine = (_columns(class_name, result, times) for result in found["runs"])
     return Simulation(
         class_name=class_name,
         tool=f"rumoca {version('rumoca')}",
@@ -42,18 +44,14 @@ def simulate(path: Path, class_name: str) -> Simulation:
         times=tuple(times.tolist()),
         columns={name: tuple(values.tolist()) for name, values in fine.items()},
         accuracy={name: float(np.abs(fine[name] - coarse[name]).max()) for name in fine},
-        parameters={p.name: float(p.value) for p in model.parameters if p.value is not None},
+        parameters={name: float(value) for name, value in found["parameters"].items()},
     )
 
 
-def _columns(model: rumoca.Model, times: NDArray[np.float64], tolerance: float) -> dict[str, NDArray[np.float64]]:
+def _columns(class_name: str, result: Mapping[str, Any], times: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
     """Every variable at ``times``. rumoca adds rows at its events, so rows are chosen by their time."""
-    config = rumoca.SimConfig(solver="rk-like", rtol=tolerance, atol=tolerance, max_wall_seconds=60)
-    try:
-        result = model.simulate(t=(times[0], times[-1]), dt=times[1] - times[0], config=config)
-    except rumoca.RumocaError as error:
-        raise BuildError(f"{model.name}: its simulation failed: {str(error).splitlines()[0]}") from None
-    rows = np.abs(np.asarray(result.time)[:, None] - times).argmin(axis=0)
-    if np.abs(np.asarray(result.time)[rows] - times).max() > 1e-9 * (times[-1] - times[0]):
-        raise BuildError(f"{model.name}: its simulation ended early, at {result.time[-1]:g} s")
-    return {name: np.asarray(result[name])[rows] for name in result.names}
+    found = np.asarray(result["times"])
+    rows = np.abs(found[:, None] - times).argmin(axis=0)
+    if np.abs(found[rows] - times).max() > 1e-9 * (times[-1] - times[0]):
+        raise BuildError(f"{class_name}: its simulation ended early, at {found[-1]:g} s")
+    return {name: np.asarray(values)[rows] for name, values in result["columns"].items()}
