@@ -54,12 +54,15 @@ class Fit:
 def fit(trace: Trace, parameters: Parameters = DATUM, names: Sequence[str] | None = None, fmu: Path = BENCH) -> Fit:
     """Fit the parameters `names`, by default those of `default_names`; the others stay as in `parameters`.
 
-    HitchError for a name that cannot be fitted to what was measured, and for an FMU that is no bench.
+    HitchError for a name that cannot be fitted to what was measured, for a drawbar that does not move, and for an FMU
+    that is no bench.
     """
     torque = trace.trailer_brake_torque is not None
     names = default_names(parameters, torque) if names is None else list(dict.fromkeys(names))
     check_names(names, torque)
     moved = motion(trace)
+    if moved.still.all():
+        raise HitchError("compression moves no further than its noise; nothing can be learned from it")
     with opened_bench(fmu, moved) as bench:
         problem = Problem(trace, moved, bench, parameters, names)
         u = problem.start()
@@ -74,7 +77,7 @@ def fit(trace: Trace, parameters: Parameters = DATUM, names: Sequence[str] | Non
                 max_nfev=MOST_ITERATIONS,
             )
             u = found.x
-        return _told(problem, u, problem.residuals(u, sigma), found.jac)
+        return _told(problem, u, sigma, found.jac)
 
 
 def check_names(names: Sequence[str], torque: bool) -> None:
@@ -129,6 +132,9 @@ class Problem:
         # Both ways and twice as far, for the sake of samples beside a kink.
         spread = [abs(self.model(u, share * error) - here) / abs(share) for share in (-2.0, -1.0, 1.0, 2.0)]
         both: Floats = np.hypot(own, np.max(spread, axis=0))
+        both[self.channels.index("F_hitch"), self.moved.still] = (
+            np.inf
+        )  # held, a guide keeps its friction; noise eats it
         return both
 
     def residuals(self, u: Floats, sigma: Floats) -> Floats:
@@ -147,11 +153,12 @@ class Problem:
         return np.column_stack(columns)
 
 
-def _told(problem: Problem, u: Floats, residuals: Floats, jacobian: Floats) -> Fit:
+def _told(problem: Problem, u: Floats, sigma: Floats, jacobian: Floats) -> Fit:
+    residuals = problem.residuals(u, sigma)
     cov, freedom = covariance(list(jacobian.reshape(*residuals.shape, len(u))), list(residuals), problem.moved.memory)
     values, errors = (u * problem.scale).tolist(), (np.sqrt(np.diag(cov)) * problem.scale).tolist()
     effects = np.abs(jacobian).max(axis=0) / problem.scale
-    excess = np.sqrt(np.mean(residuals**2, axis=1))
+    excess = np.sqrt(np.sum(residuals**2, axis=1) / np.isfinite(sigma).sum(axis=1))
     return Fit(
         parameters=problem.parameters(u),
         estimates=tuple(map(Estimate, problem.names, values, errors, freedom.tolist(), effects.tolist())),

@@ -5,12 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import UnivariateSpline
+from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from overrun_hitch.fitting.trace import Floats, Trace, noise
 
 # Of the samples' noise in square, what a spline may leave: from all of it to what one with 200 knots in 1000 leaves.
 LEFT = (1.0, 0.97, 0.94, 0.91, 0.88, 0.84, 0.8)
+STILL = 10.0  # errors that something must move to be moving
 
 
 @dataclass(frozen=True)
@@ -22,6 +25,7 @@ class Motion:
     v_rel: Floats
     error: float  # m, standard deviation by which compression may be off the true motion
     memory: int  # samples, over which that error hangs together
+    still: NDArray[np.bool_]  # (n,), near samples where it moves less than can be told from that error
 
 
 def motion(trace: Trace) -> Motion:
@@ -39,13 +43,17 @@ def motion(trace: Trace) -> Motion:
     sigma = noise(trace.compression)
     rest = _spline(time, trace.compression - sway, 5, sigma)
     spacing = len(time) / len(rest.get_coeffs())  # samples for each coefficient, which takes in the noise of one
+    compression = sway + rest(time)
+    # Twice the noise that a spline lets through, for where it bends off the motion itself.
+    error, memory = 2.0 * sigma / float(np.sqrt(spacing)), int(np.ceil(4.0 * spacing))
+    reach = maximum_filter1d(compression, memory) - minimum_filter1d(compression, memory)
     return Motion(
         time=time,
-        compression=sway + rest(time),
+        compression=compression,
         v_rel=sway_rate + rest.derivative()(time),
-        # Twice the noise that a spline lets through, for where it bends off the motion itself.
-        error=2.0 * sigma / float(np.sqrt(spacing)),
-        memory=int(np.ceil(4.0 * spacing)),
+        error=error,
+        memory=memory,
+        still=maximum_filter1d(reach < STILL * error, memory),
     )
 
 

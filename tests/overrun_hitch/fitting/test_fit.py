@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.ndimage import gaussian_filter1d
 
 from overrun_hitch import cli
 from overrun_hitch.commands.options import parameters_of
@@ -41,7 +42,7 @@ def truth(fmu: Path, parameters: Mapping[str, float], slow: float = 1.0, middle:
     phases = [2.0 * np.pi * f / slow * time + phase for _, f, phase in waves]
     x = middle + sum(a * np.sin(phase) for (a, _, _), phase in zip(waves, phases, strict=True))
     v = sum(a * 2.0 * np.pi * f / slow * np.cos(p) for (a, f, _), p in zip(waves, phases, strict=True))
-    with opened_bench(fmu, Motion(time, x, v, error=0.0, memory=1)) as bench:
+    with opened_bench(fmu, Motion(time, x, v, error=0.0, memory=1, still=time < 0.0)) as bench:
         force, torque = bench.run(parameters)
     every = slice(None, None, FINER)
     return Trace(time[every], x[every], force[every], v[every], torque[every])
@@ -142,6 +143,25 @@ def test_the_motion_is_that_behind_the_noise(exact: Trace) -> None:
         moved = motion(Trace(measured.time, measured.compression, measured.F_hitch, speed))
         off = float(np.std(moved.compression - exact.compression))
         assert off < moved.error < 3.0 * off < 2.0 * NOISE["compression"]
+
+
+def test_a_guide_that_is_held_keeps_its_friction(bench_fmu: Path) -> None:
+    """Half of the time it rests, while the travel's noise is as large as the travel over which friction reverses."""
+    time = 1e-3 * np.arange(10001)
+    x = gaussian_filter1d(0.03 + 0.02 * np.clip(1.6 * np.sin(np.pi * time), -1.0, 1.0), 20)
+    still = np.zeros(len(time), dtype=bool)
+    with opened_bench(bench_fmu, Motion(time, x, np.gradient(x, time), error=0.0, memory=1, still=still)) as bench:
+        force, _ = bench.run(TRUTH.model_dump())
+    trace = noisy(Trace(time[::10], x[::10], force[::10]), 0)
+    found = fit(trace, TRUTH, ["k", "C", "F_f"], bench_fmu)
+    assert found.parameters.F_f == pytest.approx(TRUTH.F_f, rel=0.1)
+    assert 0.2 < np.mean(found.motion.still) < 0.8
+
+
+def test_a_drawbar_that_does_not_move(exact: Trace) -> None:
+    trembling = 1e-4 * np.random.default_rng(0).normal(size=len(exact.time))
+    with pytest.raises(HitchError, match="compression moves no further than its noise"):
+        fit(Trace(exact.time, trembling, 6e3 * trembling), fmu=Path("none.fmu"))
 
 
 def test_names_that_cannot_be_fitted(exact: Trace) -> None:
