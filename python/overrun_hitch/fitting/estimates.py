@@ -70,13 +70,18 @@ def covariance(J: Sequence[Floats], residuals: Sequence[Floats], memory: int) ->
     parts = []
     for j, e in zip(J, residuals, strict=True):
         leverage = np.sum((j @ inverse) * j, axis=1)
-        scores = j * (e / (1.0 - leverage))[:, np.newaxis]
-        middle += scores.T @ scores
-        for lag in range(1, memory):
-            pairs = scores[lag:].T @ scores[:-lag]
-            middle += (1.0 - lag / memory) * (pairs + pairs.T)
+        scores = j * (e / np.maximum(1.0 - leverage, LOST))[:, np.newaxis]
+        sums = np.cumsum(np.pad(scores, ((memory, memory), (0, 0))), axis=0)
+        over_memory = (
+            sums[memory:] - sums[:-memory]
+        )  # pairs of samples come in ever fewer sums the farther apart they are
+        middle += over_memory.T @ over_memory / memory
         parts.append(np.add.reduceat((j @ inverse) ** 2, np.arange(0, len(e), max(1, memory // 2)), axis=0))
     found: Floats = inverse @ middle @ inverse
+    # Never less than of white residuals: a sample that a parameter is there for alone leaves none.
+    white = np.concatenate(residuals).var() * np.diag(inverse)
+    wider = np.sqrt(np.maximum(1.0, np.divide(white, np.diag(found), out=np.ones(p), where=np.diag(found) > 0.0)))
+    found *= np.outer(wider, wider)
     found[lost, :] = found[:, lost] = 0.0
     found[lost, lost] = math.inf
     share = np.vstack(parts)

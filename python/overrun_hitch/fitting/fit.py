@@ -54,8 +54,8 @@ class Fit:
 def fit(trace: Trace, parameters: Parameters = DATUM, names: Sequence[str] | None = None, fmu: Path = BENCH) -> Fit:
     """Fit the parameters `names`, by default those of `default_names`; the others stay as in `parameters`.
 
-    HitchError for a name that cannot be fitted to what was measured, for a drawbar that does not move, and for an FMU
-    that is no bench.
+    HitchError for a name that cannot be fitted to what was measured, for a drawbar that does not move or is never
+    pushed in, and for an FMU that is no bench.
     """
     torque = trace.trailer_brake_torque is not None
     names = default_names(parameters, torque) if names is None else list(dict.fromkeys(names))
@@ -63,6 +63,8 @@ def fit(trace: Trace, parameters: Parameters = DATUM, names: Sequence[str] | Non
     moved = motion(trace)
     if moved.still.all():
         raise HitchError("compression moves no further than its noise; nothing can be learned from it")
+    if LENGTHS.intersection(names) and moved.compression.max() <= 0.0:
+        raise HitchError(f"compression is {moved.compression.max():.3g} m at most: the drawbar is never pushed in")
     with opened_bench(fmu, moved) as bench:
         problem = Problem(trace, moved, bench, parameters, names)
         u = problem.start()
@@ -132,9 +134,8 @@ class Problem:
         # Both ways and twice as far, for the sake of samples beside a kink.
         spread = [abs(self.model(u, share * error) - here) / abs(share) for share in (-2.0, -1.0, 1.0, 2.0)]
         both: Floats = np.hypot(own, np.max(spread, axis=0))
-        both[self.channels.index("F_hitch"), self.moved.still] = (
-            np.inf
-        )  # held, a guide keeps its friction; noise eats it
+        # A guide that is held keeps its friction; one that seems to tremble does not.
+        both[self.channels.index("F_hitch"), self.moved.still] = np.inf
         return both
 
     def residuals(self, u: Floats, sigma: Floats) -> Floats:

@@ -45,9 +45,8 @@ class Sampler:
     def run(self, before_step: Mapping[int, Callable[[], None]] | None = None) -> Floats:
         """Values (points, names) in SI units, in a table that the next run overwrites.
 
-        An input that is fed has its value and its slope set before each step.
-
-        `before_step` is called before the steps with these numbers, to change inputs. StepRefused as for Unit.step.
+        An input that is fed has its value and its slope set before each step. `before_step` is called before the
+        steps with these numbers, to change inputs. StepRefused as for Unit.step.
         """
         do_step, get_real = self._slave.dll.fmi2DoStep, self._slave.dll.fmi2GetReal
         set_real, set_slope = self._slave.dll.fmi2SetReal, self._slave.dll.fmi2SetRealInputDerivatives

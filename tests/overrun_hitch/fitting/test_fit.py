@@ -162,6 +162,8 @@ def test_a_drawbar_that_does_not_move(exact: Trace) -> None:
     trembling = 1e-4 * np.random.default_rng(0).normal(size=len(exact.time))
     with pytest.raises(HitchError, match="compression moves no further than its noise"):
         fit(Trace(exact.time, trembling, 6e3 * trembling), fmu=Path("none.fmu"))
+    with pytest.raises(HitchError, match="the drawbar is never pushed in"):
+        fit(Trace(exact.time, exact.compression - 1.0, exact.F_hitch), fmu=Path("none.fmu"))
 
 
 def test_names_that_cannot_be_fitted(exact: Trace) -> None:
