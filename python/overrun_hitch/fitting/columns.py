@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -74,14 +76,18 @@ def factor(name: str, unit: str) -> float:
     si = UNITS[name]
     if unit == si:
         return 1.0
-
-    # Imported here, because it takes half a second that a trace in SI need not wait for.
-    import pint
-
-    registry = pint.UnitRegistry()
+    registry = _registry()
     # As Modelica and engineers write products: N.m, Nm.
     asked, wanted = (re.sub(r"Nm\b", "N*m", text.replace(".", "*")) for text in (unit, si))
     try:
         return float(registry.Quantity(1.0, asked).to(wanted).magnitude)
     except Exception:  # pint raises its parser's and the tokenizer's errors as well as its own
         raise HitchError(f"{unit!r:.20} is no unit of {name}; allowed: {si} and what can be converted to it") from None
+
+
+@cache
+def _registry() -> Any:
+    # Imported here, because it takes half a second that a trace in SI need not wait for.
+    import pint
+
+    return pint.UnitRegistry()

@@ -115,6 +115,7 @@ def test_a_trace_beyond_the_threshold_does_not_tell_it_from_the_clearance(bench_
     assert estimates["k"].told and estimates["F_f"].told
 
 
+@pytest.mark.full
 def test_further_stiffnesses_and_where_they_begin(bench_fmu: Path) -> None:
     stiffer = TRUTH.changed({"x_2": 0.03, "k_2": 9000.0})
     trace = noisy(truth(bench_fmu, stiffer.model_dump()), 0)
@@ -124,6 +125,7 @@ def test_further_stiffnesses_and_where_they_begin(bench_fmu: Path) -> None:
         assert estimate.told and off < 4.0 * estimate.standard_error, estimate.name
 
 
+@pytest.mark.full
 def test_a_step_brake_of_car_and_trailer_gives_its_own_parameters(bench_fmu: Path, car_trailer_fmu: Path) -> None:
     """Another unit made the trace, and nobody measured the rate."""
     run = step_brake(FIGURES["7"], fmu=car_trailer_fmu)
@@ -145,6 +147,7 @@ def test_the_motion_is_that_behind_the_noise(exact: Trace) -> None:
         assert off < moved.error < 3.0 * off < 2.0 * NOISE["compression"]
 
 
+@pytest.mark.full
 def test_a_guide_that_is_held_keeps_its_friction(bench_fmu: Path) -> None:
     """Half of the time it rests, while the travel's noise is as large as the travel over which friction reverses."""
     time = 1e-3 * np.arange(10001)
