@@ -18,6 +18,7 @@ import typer
 
 from overrun_hitch.commands.couple import couple
 from overrun_hitch.commands.crosscheck import crosscheck
+from overrun_hitch.commands.fit import fit
 from overrun_hitch.commands.optimise import optimise
 from overrun_hitch.commands.paper import paper
 from overrun_hitch.commands.report import report
@@ -97,5 +98,6 @@ app.command()(couple)
 app.command()(sweep)
 app.command()(sensitivity)
 app.command()(optimise)
+app.command()(fit)
 app.command()(paper)
 app.command()(report)

@@ -45,7 +45,8 @@ model CarTrailer "Car and trailer with an overrun brake (Sharp 1982)"
   output Units.Slip slip_trailer = trailer.tyre.slip "Longitudinal slip of the trailer's wheels, positive when braking";
   output Units.Torque trailer_brake_torque = trailer.wheel.tau "Brake torque on the trailer's lumped wheels, positive when it slows wheels that roll forward";
   Components.BrakedVehicle car(M=M_c, I=I_c, R=R_c, C_k=C_kc, V_0=V_0, mu=mu, mu_slide=mu_slide, sigma=sigma, CdA=CdA_c, C_rr=C_rr, final reverse_braking=1, final x_0=0) "Car" annotation(Placement(transformation(extent={{40,-20},{80,20}})));
-  Components.BrakedVehicle trailer(M=M_t, I=I_t, R=R_t, C_k=C_kt, V_0=V_0, mu=mu, mu_slide=mu_slide, sigma=sigma, CdA=CdA_t, C_rr=C_rr, reverse_braking=reverse_braking, x_0=compression_start) "Trailer" annotation(Placement(transformation(extent={{-80,-20},{-40,20}})));
+  Components.BrakedVehicle trailer(M=M_t, I=I_t, R=R_t, C_k=C_kt, V_0=V_0, mu=mu, mu_slide=mu_slide, sigma=sigma,
+    CdA=CdA_t, C_rr=C_rr, reverse_braking=reverse_braking, x_0=compression_start) "Trailer" annotation(Placement(transformation(extent={{-80,-20},{-40,20}})));
   Components.Drawbar drawbar(k=k, k_t=k_t, C=C, eps=eps, F_pull_max=F_pull_max, rebound=rebound, F_f=F_f, F_0=F_0,
     x_2=x_2, k_2=k_2, x_3=x_3, k_3=k_3, travel=travel, k_buffer=k_buffer) "Drawbar" annotation(Placement(transformation(extent={{-20,-20},{20,20}})));
   Components.Road road "Road" annotation(Placement(transformation(extent={{-80,70},{-60,90}})));

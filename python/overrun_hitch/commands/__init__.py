@@ -1,3 +1,3 @@
 """The commands of `hitch`: options in, exit status out."""
 
-__all__ = ["couple", "crosscheck", "optimise", "paper", "report", "run", "sensitivity", "stability", "sweep"]
+__all__ = ["couple", "crosscheck", "fit", "optimise", "paper", "report", "run", "sensitivity", "stability", "sweep"]

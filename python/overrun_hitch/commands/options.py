@@ -24,12 +24,12 @@ TimeLimitOption = Annotated[float, typer.Option("--time-limit", help="Time in s 
 FmuOption = Annotated[Path | None, typer.Option(help="FMU file to run instead of our own.")]
 
 
-def assignments(changes: list[str] | None) -> dict[str, str]:
-    """Name to value of every --set; HitchError for what is none."""
+def assignments(changes: list[str] | None, option: str = "--set", example: str = "C=200") -> dict[str, str]:
+    """Name to value of every --set, or of another option's NAME=VALUE; HitchError for what is none."""
     pairs = [change.partition("=") for change in changes or []]
     for name, equals, _ in pairs:
         if not equals:
-            raise HitchError(f"--set {name!r:.40} is not NAME=VALUE; for example --set C=200")
+            raise HitchError(f"{option} {name!r:.40} is not NAME=VALUE; for example {option} {example}")
     return {name.strip(): value.strip() for name, _, value in pairs}
 
 

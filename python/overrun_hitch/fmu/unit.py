@@ -35,6 +35,7 @@ class Unit:
         self.guid = str(description.guid)
         self._slave = slave
         self._references = {variable.name: variable.valueReference for variable in description.modelVariables}
+        self.names = frozenset(self._references)
         self._derivatives = [unknown.variable for unknown in description.derivatives]
         self._fresh = True
 
@@ -81,10 +82,14 @@ class Unit:
         except FMICallException as error:
             raise StepRefused(refusal(self.name, self._messages, error)) from None
 
-    def sampler(self, names: Sequence[str], points: Floats) -> Sampler:
-        """For many runs through the same `points` (n,) in s: see Sampler."""
+    def sampler(self, names: Sequence[str], points: Floats, fed: tuple[str, Floats, Floats] | None = None) -> Sampler:
+        """For many runs through the same `points` (n,) in s: see Sampler.
+
+        `fed` is an input by name, and for each of the n - 1 steps its value at the start and its slope.
+        """
         references = [self._references[name] for name in names]
-        return Sampler(self._slave, references, points, lambda error: refusal(self.name, self._messages, error))
+        course = (self._references[fed[0]], *fed[1:]) if fed else None
+        return Sampler(self._slave, references, points, lambda error: refusal(self.name, self._messages, error), course)
 
     @contextmanager
     def saved(self) -> Iterator[Callable[[], None]]:
