@@ -88,7 +88,7 @@ def test_a_library_beside_the_file(folder: str, tmp_path: Path) -> None:
     path.write_text("model M\n  Parts.Decay d;\nend M;\n", encoding="utf-8")
     model = flatten(path, "M", [tmp_path / "libraries" / folder])
     assert [v.name for v in model.variables] == ["d.x"]
-    with pytest.raises(BuildError, match="M.mo:2: .*Parts.Decay"):
+    with pytest.raises(BuildError, match=r"M.mo:2: .*Parts.Decay"):
         flatten(path, "M")
     with pytest.raises(BuildError, match="nowhere: no such folder"):
         flatten(path, "M", [tmp_path / "nowhere"])
