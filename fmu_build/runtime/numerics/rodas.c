@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "gradient.h"
 #include "lu.h"
 
 /* The derivatives, which the model has just stored one by one. They are loaded one by one as well (volatile): compilers
@@ -15,26 +16,6 @@ static void take_derivatives(const Variables *v, double derivative[])
     }
 }
 
-/* With inputs that move, the derivatives change in time also through them. */
-static void add_moving_inputs(Rodas *r, const Variables *v, const bool holds[])
-{
-    Variables d = {.at = {0.0}};
-    d.time = 1.0;
-    ramp_rates(r->ramp, v, &d);
-    model_tangent(v, holds, false, &d);
-    memcpy(r->time_derivative, &d.at[FIRST_DERIVATIVE], N_STATES * sizeof(double));
-}
-
-static int first_bad_gradient(const Rodas *r)
-{
-    for (int e = 0; e < N_JACOBIAN; e++) {
-        if (!isfinite(r->jacobian[e])) {
-            return jacobian_row[e];
-        }
-    }
-    return first_not_finite(r->time_derivative, N_STATES);
-}
-
 int rodas_start(Rodas *r, Variables *v, const bool holds[], const Ramp *ramp)
 {
     r->ramp = ramp;
@@ -42,15 +23,8 @@ int rodas_start(Rodas *r, Variables *v, const bool holds[], const Ramp *ramp)
     memcpy(r->path.state, &v->at[FIRST_STATE], N_STATES * sizeof(double));
     model_derivatives(v, holds);
     take_derivatives(v, r->derivative);
-    model_jacobian(v, holds, r->jacobian, r->time_derivative);
-    if (ramp->moves) {
-        add_moving_inputs(r, v, holds);
-    }
     const int bad = first_not_finite(r->derivative, N_STATES);
-    if (bad != FINITE) {
-        return bad;
-    }
-    return first_bad_gradient(r);
+    return bad != FINITE ? bad : gradient(ramp, v, holds, r->derivative, r->jacobian, r->time_derivative);
 }
 
 void rodas_back(const Rodas *r, Variables *v)
