@@ -76,7 +76,9 @@ def test_at_speed_nothing_depends_on_the_states_that_count_at_standstill(car_tra
     papers = [names.index(name) for name in FMU_STATES.values()]
     tyres = [names.index(f"{vehicle}.tyre.u") for vehicle in ("car", "trailer")]
     brakes = [names.index(f"{vehicle}.wheel.z") for vehicle in ("car", "trailer")]
-    assert sorted(papers + tyres + brakes) == list(range(len(names)))
+    neutral = [names.index(name) for name in ("drawbar.friction.z", "linkage.T_missing")]
+    assert sorted(papers + tyres + brakes + neutral) == list(range(len(names)))
+    assert not jacobian[neutral].any() and not jacobian[:, neutral].any()  # without friction and lag
     assert not jacobian[np.ix_(papers, tyres)].any()
     assert not jacobian[np.ix_(brakes, papers + tyres)].any()  # so they stay what they are at the start
     assert (np.diag(jacobian)[tyres + brakes] < 0.0).all()
