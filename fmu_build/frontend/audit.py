@@ -83,14 +83,20 @@ class _Audit:
     def _variable(self, read: ClassText, modifier: Modifier) -> str:
         """The variable that the modifier is for and that has its default; "" if there is none."""
         for target in self._classes.targets(read, modifier):
-            found = [node for _, node in self._values.variables(target) if self._is_default(node, "binding")]
-            if target[-1] == "start" and len(target) > 2:  # a type's own is never lost, and T(start=1) fits any T
-                others = [node for _, node in self._values.variables(target[:-1]) if _starts_by_itself(node)]
+            found = [node for node in self._owned(target, read) if self._is_default(node, "binding")]
+            if target[-1] == "start" and len(target) > 2:  # what a type says is never lost
+                others = [node for node in self._owned(target[:-1], read) if _starts_by_itself(node)]
                 found += [node for node in others if self._is_default(node, "start")]
             found += [node for node in self._values.fields(target) if self._is_declared(node, target[-1])]
             if found:
                 return str(found[0]["name"])
         return ""
+
+    def _owned(self, ending: Path, read: ClassText) -> list[Node]:
+        """The variables whose paths end so, in components of the class ``read``."""
+        found = self._values.variables(ending)
+        depth = len(ending) - 1
+        return [node for path, node in found if self._classes.is_a(path[: len(path) - depth], read)]
 
     def _is_default(self, node: Node, key: str) -> bool:
         """Whether an attribute is what the declaration of the variable itself says, or nothing."""
