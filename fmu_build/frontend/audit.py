@@ -83,24 +83,26 @@ class _Audit:
     def _variable(self, read: ClassText, modifier: Modifier) -> str:
         """The variable that the modifier is for and that has its default; "" if there is none."""
         for target in self._classes.targets(read, modifier):
-            found = [node for _, node in self._values.variables(target) if self._is_default(node, "binding")]
-            if target[-1] == "start":
-                is_of_type = len(modifier.path) == 1
-                others = [node for _, node in self._values.variables(target[:-1]) if _starts_by_itself(node)]
-                found += [node for node in others if self._is_default(node, "start", is_of_type)]
+            found = [node for node in self._owned(target, read) if self._is_default(node, "binding")]
+            if target[-1] == "start" and len(target) > 2:  # what a type says is never lost
+                others = [node for node in self._owned(target[:-1], read) if _starts_by_itself(node)]
+                found += [node for node in others if self._is_default(node, "start")]
             found += [node for node in self._values.fields(target) if self._is_declared(node, target[-1])]
             if found:
                 return str(found[0]["name"])
         return ""
 
-    def _is_default(self, node: Node, key: str, is_of_type: bool = False) -> bool:
-        """Whether an attribute is what the declaration of the variable itself says, or nothing.
+    def _owned(self, ending: Path, read: ClassText) -> list[Node]:
+        """The variables whose paths end so, in components of the class ``read``."""
+        found = self._values.variables(ending)
+        depth = len(ending) - 1
+        return [node for path, node in found if self._classes.is_a(path[: len(path) - depth], read)]
 
-        What its type says is less than what its declaration says.
-        """
+    def _is_default(self, node: Node, key: str) -> bool:
+        """Whether an attribute is what the declaration of the variable itself says, or nothing."""
         own = node["component_ref"]["span"]
-        end = own["end"] if is_of_type else self._sources.end_of_statement(own)
-        return node[key] is None or lies_in(place(node[key]), own["source"], (own["start"], end))
+        statement = (own["start"], self._sources.end_of_statement(own))
+        return node[key] is None or lies_in(place(node[key]), own["source"], statement)
 
     def _is_declared(self, field: Node, record: str) -> bool:
         """Whether a field has its value from the declaration of a record of this name."""

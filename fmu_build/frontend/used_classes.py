@@ -109,3 +109,31 @@ class UsedClasses:
         parts = [part.lstrip("=") for part in modifier.path]
         choices = [sorted({part} | self._components.get(part, set())) for part in parts]
         yield from itertools.product(owners, *choices)
+
+    def is_a(self, component: Path, read: ClassText) -> bool:
+        """Whether a component is one of the class ``read``, as the declarations on its path tell."""
+        kinds = {self._root}
+        for name in component[1:]:
+            classes = {base for kind in kinds for base in self._with_bases(kind)}
+            declared = {kind for base in classes for kind in self._kinds.get(base, {}).get(name, ())}
+            kinds = declared | self._replacements.get(name, set())
+        return any(read.name in self._with_bases(kind) for kind in kinds)
+
+    @cached_property
+    def _kinds(self) -> dict[str, dict[str, set[str]]]:
+        """The classes of the components of each class, by their names."""
+        found: dict[str, dict[str, set[str]]] = {}
+        for _, read in self.used:
+            kinds = found.setdefault(read.name, {})
+            for name, kind in read.components:
+                kinds.setdefault(name, set()).add(self._resolve(kind, read.name))
+        return found
+
+    @cached_property
+    def _replacements(self) -> dict[str, set[str]]:
+        """The classes that components are redeclared with, by the names of these."""
+        found: dict[str, set[str]] = {}
+        for _, read in self.used:
+            for name in {given.path[-1] for given in read.redeclared}:
+                found.setdefault(name, set()).update(self._kinds[read.name].get(name, ()))
+        return found

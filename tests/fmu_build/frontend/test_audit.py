@@ -107,6 +107,12 @@ RIGHT = {
     "redeclared without a value": ("Part p(redeclare parameter Real u);", "p.u", "1"),
     "record": ("Pair r = Pair(7, 8);", "r.a", "7"),
     "field of a redeclared record": ("Paired p(redeclare Pair r(a=7));", "p.r.a", "7"),
+    "type of another T": (
+        "type Kelvin = Real(start=288); record R Kelvin T; end R; model C parameter Real T[2] = {1, 2}; end C;"
+        " C c; R r(T(start=5)=7);",
+        "c.T[2]",
+        "2",
+    ),
     "package": ("Packed p(redeclare package Z = P(c=5));", "p.y", "5"),
     "package by its name": ("Packed p(redeclare package Z = Q);", "p.y", "2"),
     "function": (
