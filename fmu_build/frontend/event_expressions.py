@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -50,6 +51,11 @@ class Declared:
     discrete: frozenset[str]
     constant: frozenset[str]  # parameters among them
     literals: Mapping[str, int]  # of enumerations
+
+    @cached_property
+    def still(self) -> frozenset[str]:
+        """What does not change in between events."""
+        return self.discrete | self.constant
 
 
 class EventReader(ExpressionReader):

@@ -18,7 +18,7 @@ from ..errors import BuildError
 from ..ir.equations import Assignment, Equation, Variable
 from ..ir.events import Alternatives
 from ..ir.models import FlatModel
-from ..ir.symbols import symbol
+from ..ir.symbols import is_continuous, symbol
 from .annotations import (
     class_text,
     read_claims,
@@ -88,8 +88,9 @@ def _with_equations(model: FlatModel, flat: Node, reader: EventReader) -> FlatMo
         if v.variability == "discrete" and v.binding is not None and v.causality != "input"
     ]
     equations: list[Equation] = []
+    taken = assigned_names(flat) | reader.declared.constant
     for residual, origin, names in _residuals(flat, reader):
-        if alternatives := _discrete_equation(residual, origin, flat, reader, names):
+        if alternatives := _discrete_equation(residual, origin, taken, reader, names):
             discrete += alternatives
         else:
             equations += _scalars(residual, origin, reader, names)
@@ -164,26 +165,30 @@ def _scalars(residual: dict[str, Any], origin: str, reader: EventReader, names: 
 
 
 def _discrete_equation(
-    residual: Node, origin: str, flat: Node, reader: EventReader, names: dict[str, Value]
+    residual: Node, origin: str, taken: frozenset[str], reader: EventReader, names: dict[str, Value]
 ) -> list[Alternatives]:
     """An equation between discrete variables as the assignments that it may be, one for each element of an array;
-    none if it is another equation."""
+    none if it is another equation, such as ``der(x) = k``: what changes in between events gives no Integer its value.
+    """
     body = residual.get("Binary")
     if body is None or body["op"] != "Sub":
         return []
-    taken = assigned_names(flat) | reader.declared.constant
     options = []
+    determines_other = False
     with reader.equation(origin, names), reader.inside_branch():
         for one, other in ((body["lhs"], body["rhs"]), (body["rhs"], body["lhs"])):
             target = reader.read(one) if "VarRef" in one else ()
             known = {s.name if s.is_Symbol else "" for s in elements(target)}
             if known and known <= reader.declared.discrete and not known & taken:
                 values = elements_for(target, reader.read(other))
+                if any(is_continuous(value, reader.declared.still) for value in values):
+                    determines_other = True
+                    continue
                 pairs = zip(elements(target), values, strict=True)
                 options.append([Assignment(s.name, value, origin) for s, value in pairs])
     if options:
         return [Alternatives(alternatives) for alternatives in zip(*options, strict=True)]
-    if reader.is_discrete_valued(body["lhs"]):
+    if reader.is_discrete_valued(body["lhs"]) and not determines_other:
         text = reader.sources.text(body["span"]) if "span" in body else ""
         raise BuildError(f"{origin}: {text}: an equation between discrete variables must read: name = expression")
     return []

@@ -12,7 +12,7 @@ where round and curly brackets stand in quotes alone, so that none is taken for 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Set
 from enum import Enum
 
 import sympy
@@ -113,6 +113,16 @@ def holds(index: int) -> sympy.Symbol:
 def relation_of(truth: sympy.Symbol) -> int | None:
     """The index of the relation whose truth value it is; None if it is a variable."""
     return int(truth.name.rpartition("{")[2][:-1]) if kind_of(truth.name) is Kind.HOLDS else None
+
+
+def is_continuous(value: sympy.Expr, others: Set[str]) -> bool:
+    """Whether a value changes in between events, by more than conditions. ``others``: variables that do not."""
+    if isinstance(value, sympy.Piecewise):
+        return any(is_continuous(branch, others) for branch, _ in value.args)
+    if value.is_Symbol:
+        is_derivative = kind_of(value.name) is Kind.DERIVATIVE
+        return is_derivative or (kind_of(value.name) is None and value.name not in {*others, INITIAL, TERMINAL})
+    return any(is_continuous(argument, others) for argument in value.args)
 
 
 def is_true(name: str) -> sympy.Expr:
