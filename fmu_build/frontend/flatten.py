@@ -35,6 +35,7 @@ from .declarations import Node, declared_names, fixed_names, is_text, variables_
 from .event_expressions import EventReader, enumeration_types
 from .loading import load
 from .modifiers import with_modifiers
+from .outer import with_inner
 from .sources import Sources, readable
 from .values import Value, elements
 
@@ -47,7 +48,7 @@ def flatten(path: Path, class_name: str, libraries: Sequence[Path] = ()) -> Flat
     """
     flat, sources = load(path, class_name, libraries)
     fixed = fixed_names(flat)
-    flat = with_modifiers(flat, fixed)
+    flat = with_inner(with_modifiers(flat, fixed), sources)
     declared = declared_names(flat)
     reader = EventReader(sources, declared, flat, fixed)
     kinds = enumeration_types(flat)
