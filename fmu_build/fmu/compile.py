@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import platform as machine
+import re
 import shlex
 import shutil
 import subprocess
@@ -158,4 +159,7 @@ def _run(command: list[str], folder: Path, environment: dict[str, str]) -> None:
     if result.returncode != 0:
         lines = result.stderr.splitlines()
         first = next((line for line in lines if "error" in line), lines[0] if lines else f"status {result.returncode}")
+        files = re.findall(r"([\w.-]+\.[ch]):\d+", first)
+        if files and (folder / files[0]).is_file():
+            raise BuildError(f"fmu_build has made C that does not compile, a defect of its, please report it: {first}")
         raise BuildError(f"{Path(command[0]).name} failed: {first}")

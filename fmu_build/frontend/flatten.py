@@ -36,6 +36,7 @@ from .declarations import Node, declared_names, fixed_names, is_text, variables_
 from .event_expressions import EventReader, enumeration_types
 from .loading import load
 from .modifiers import with_modifiers
+from .outer import with_inner
 from .scopes import rescoped
 from .sources import Sources, readable
 from .used_classes import UsedClasses
@@ -53,7 +54,7 @@ def flatten(path: Path, class_name: str, libraries: Sequence[Path] = ()) -> Flat
     refuse_lost_modifiers(flat, sources, classes)
     flat = rescoped(flat, sources, classes)
     fixed = fixed_names(flat)
-    flat = with_modifiers(flat, fixed)
+    flat = with_inner(with_modifiers(flat, fixed), sources)
     declared = declared_names(flat)
     reader = EventReader(sources, declared, flat, fixed)
     kinds = enumeration_types(flat)

@@ -20,6 +20,21 @@ import rumoca
 
 Request = Mapping[str, Any]
 
+# What rumoca says, what shows the place in the source, and what to do.
+REMEDIES = (
+    (
+        "duplicate reinitialization owner",
+        r"\breinit\s*\(\s*([\w.]+)(?=.*?\breinit\s*\(\s*\1\s*,)",
+        "two when-clauses reinit {0}, and which counts if both become true? Make them branches of one, by elsewhen",
+    ),
+    (
+        "unbalanced model",
+        r"\bouter\s+(?:input\s+|output\s+)?(?:Real|Integer|Boolean)\s+(\w+)",
+        "rumoca supports `outer {0}` for parameters and discrete variables alone, which may be why; declare a component"
+        " that has it, `inner Surroundings s` and `outer Surroundings s`, or hand it down through a connector",
+    ),
+)
+
 
 def main(folder: Path) -> None:
     """Answer the request."""
@@ -89,7 +104,12 @@ def _located_message(text: str, entry: Path, class_name: str) -> str:
     message = re.sub(r"^\S+ could not be compiled: |^\w+ failed: \S+ failed in \w+: ", "", first_line)
     if place := re.search(r" \[(\S+:\d+):\d+\]", message):
         return f"{place.group(1)}: {message.replace(place.group(0), '')}"
-    files = sorted(entry.parent.rglob("*.mo")) if entry.name == "package.mo" else [entry]
+    files = _files(entry, class_name)
+    for said, shown, remedy in REMEDIES:
+        for file in files if said in message else ():
+            if found := re.search(shown, text := file.read_text(encoding="utf-8"), re.DOTALL):
+                number = text.count("\n", 0, found.start()) + 1
+                return f"{file}:{number}: {message}: {remedy.format(*found.groups())}"
     for file in files:
         for diagnostic in rumoca.validate(str(file)):
             if place := re.search(r"\[(.+?:\d+):\d+\]", diagnostic.message):
@@ -123,6 +143,14 @@ def _classes(text: str) -> Iterator[str]:
     outer = f"{within[1]}.{first}" if within else first
     yield outer
     yield from (f"{outer}.{other}" for other in others)
+
+
+def _files(entry: Path, class_name: str) -> list[Path]:
+    """The files of the library, that of the class itself first."""
+    if entry.name != "package.mo":
+        return [entry]
+    own = class_name.split(".")
+    return sorted(entry.parent.rglob("*.mo"), key=lambda file: (file.stem not in own, file.stem != own[-1], file))
 
 
 if __name__ == "__main__":

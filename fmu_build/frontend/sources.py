@@ -11,6 +11,8 @@ from typing import Any
 # XML has no place for these (XML 1.0, section 2.2); Modelica's strings may contain them (\a, \b, \f, \v).
 _UNFIT = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
+_SKIPPED = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)  # strings and comments
+
 
 def readable(text: str | None) -> str:
     """A text for people, with a replacement character for each that no XML file can hold; "" if there is none."""
@@ -41,7 +43,16 @@ class Sources:
         """``file:line`` of a span."""
         name, text = self._files.get(span["source"], ("", ""))
         line = text.encode()[: span["start"]].count(b"\n") + 1
-        return f"{os.path.relpath(name, self._root) if name else 'Modelica'}:{line}"
+        return f"{self._relative(name) if name else 'Modelica'}:{line}"
+
+    def _relative(self, name: str) -> str:
+        """The path in the library; that of a file of another one begins with the folder of that library."""
+        root = self._root.resolve()
+        path = Path(name).resolve()
+        packages = [folder for folder in path.parents if (folder / "package.mo").is_file()]
+        if packages and not path.is_relative_to(root):
+            root = packages[-1].parent
+        return os.path.relpath(path, root)
 
     def text(self, span: Mapping[str, int]) -> str:
         """The Modelica text of a span, on one line."""
@@ -53,6 +64,12 @@ class Sources:
         _, text = self._files.get(span["source"], ("", ""))
         statement = text.encode()[: span["start"]].decode().rpartition(";")[2]
         return re.search(r"\btype\s+\w+\s*=", statement) is not None
+
+    def is_declared(self, prefix: str, span: Mapping[str, int]) -> bool:
+        """Whether the declaration around a span has a prefix, such as ``outer``, in front of it."""
+        _, text = self._files.get(span["source"], ("", ""))
+        before = text.encode()[max(0, span["start"] - 500) : span["start"]].decode(errors="ignore")
+        return re.search(rf"\b{prefix}\b", _SKIPPED.sub("", before).rpartition(";")[2]) is not None
 
     def find_place(self, node: Any) -> str:
         """The place of the outermost span inside ``node``."""

@@ -26,6 +26,14 @@ BROKEN = {
         "M.mo:2",
         "y is not a state",
     ),
+    "two reinits of one state": (
+        "model M\n  Real x(start=1), y(start=1);\nequation\n  der(x)=1;\n  der(y)=1;\n  when y>3 then\n"
+        "    reinit(y,0);\n  end when;\n  when x>2 then\n    reinit(x,0);\n  end when;\n"
+        "  when x>3 then\n    reinit(x, 1);\n  end when;\n"
+        "end M;",
+        "M.mo:10",
+        "branches of one, by elsewhen",
+    ),
     "two when-clauses": (
         "model M\n  Integer n(start=0);\nequation\n  when time>2 then\n    n=1;\n  end when;\n  when time>3 then\n"
         "    n=2;\n  end when;\nend M;",
