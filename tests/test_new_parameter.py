@@ -92,7 +92,7 @@ def refusal(project: Path, *arguments: str) -> str:
 
 def test_a_value_out_of_range_is_told_in_one_line(project: Path) -> None:
     said = refusal(project, "run", "--set", "g_new=-1")
-    assert "g_new = -1 1 is not allowed: factor on the damper coefficient must be" in said
+    assert "g_new = -1 is not allowed: factor on the damper coefficient must be" in said
 
 
 @pytest.mark.full

@@ -250,6 +250,8 @@ class Scenario(Quantities):
                            "duration": self.duration, **changes})  # fmt: skip
 
 
+PIECES = ("F_0", "x_2", "x_3", "travel")  # where the spring's stiffness changes, beside the clearance
+
 # Section 7 of the paper fixes car and trailer; k, r, C are its free choices, here those of case ii in figure 8.
 DATUM = Parameters()
 

@@ -145,7 +145,7 @@ def test_relations_of_equal_residual_are_one(modelica_library: Path) -> None:
         "F_free < -F_pull_max",
         "F_free > F_pull_max",
     ]
-    assert len(model.states) == 10
+    assert len(model.states) == 12
 
 
 def test_names_that_c_forbids_or_confuses(compiled_model: Compile) -> None:

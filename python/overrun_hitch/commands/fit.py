@@ -48,7 +48,6 @@ def fit(
     ] = None,
     set_: SetOption = None,
     parameters: ParametersOption = None,
-    fmu: Annotated[Path | None, typer.Option(help="Bench.fmu to move instead of our own.")] = None,
     json: Annotated[bool, typer.Option("--json", help="Print one JSON document instead of a table.")] = False,
     output: Annotated[Path, typer.Option(help="Folder for the files written.")] = Path("build/fit"),
 ) -> int:
@@ -74,9 +73,9 @@ def fit(
     has_torque = measured.trailer_brake_torque is not None
     wanted = default_names(base, has_torque) if names is None else [part.strip() for part in names.split(",")]
     check_names(wanted, has_torque)
-    unit_file = our_fmu(BENCH) if fmu is None else fmu
+    bench = our_fmu(BENCH)
     with terminal.patience("Fitting"):
-        found = search(measured, base, wanted, unit_file)
+        found = search(measured, base, wanted, bench)
     if not has_torque:
         guesses.append("no brake torque was measured: r and tau_b are not fitted")
     stem = output / file_stem(trace.stem)

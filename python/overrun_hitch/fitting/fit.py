@@ -27,7 +27,7 @@ SCALES: Mapping[str, tuple[int, int, int, int]] = {
     "r": (0, 1, -1, 0), "tau_b": (0, 0, 1, -1),
 }  # fmt: skip
 OF_TORQUE = {"r", "tau_b"}
-LENGTHS = {"eps", "x_2", "x_3", "travel"}
+LENGTHS = {name for name, powers in SCALES.items() if powers == (0, 0, 1, 0)}
 MOST_REBOUND = 20.0  # devices have up to some 5; where the data do not tell the damper it would run away
 
 

@@ -11,13 +11,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from overrun_hitch.parameters import DATUM, HitchError, Parameters, with_unit
+from overrun_hitch.parameters import DATUM, PIECES, HitchError, Parameters, with_unit
 from overrun_hitch.theory.steady import braking_at, pieces
 
 g_n = 9.80665  # m/s2, standard acceleration of free fall
 C_x = 1.685  # shape of the magic formula, as in Tyre.mo
 E_x1, X_peak = 0.344, 1.5329258834444335  # its curvature where a wheel locks before the peak, and the argument there
-PIECES = ("F_0", "x_2", "x_3", "travel")  # where the spring's stiffness changes, beside the clearance
 NEWTON_STEPS = 50  # from below, without overshooting: more than it takes up to the peak
 
 

@@ -59,8 +59,8 @@ def text_of(span: tuple[int, int]) -> str:
 
 
 def test_components_are_those_of_rumoca(modelica_library: Path) -> None:
-    model, sources = load(modelica_library, "OverrunHitch.Systems.CarTrailer")
+    flat, sources = load(modelica_library, "OverrunHitch.Systems.CarTrailer")
     texts = sources.texts_by_number().values()
     read = {found.name: found for text in texts for found in read_classes(text)}["OverrunHitch.Systems.CarTrailer"]
-    names = [name.partition(".")[0] for name in model.to_dict("flat")["variables"]]
+    names = [name.partition(".")[0] for name in flat["variables"]]
     assert {name for name, _ in read.components} == set(names)

@@ -51,10 +51,16 @@ BAD = [
 
 @pytest.mark.parametrize(("columns", "arguments", "message"), BAD)
 def test_bad_input_is_one_line_and_status_2(
-    columns: dict[str, object], arguments: list[str], message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    columns: dict[str, object],
+    arguments: list[str],
+    message: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    monkeypatch.setattr("overrun_hitch.commands.fit.our_fmu", lambda fmu: fmu)  # what is wrong comes first
     trace = written(tmp_path, **columns)
-    status = cli.main(["fit", str(trace), *arguments, "--output", str(tmp_path / "out"), "--fmu", "none.fmu"])
+    status = cli.main(["fit", str(trace), *arguments, "--output", str(tmp_path / "out")])
     out, err = capsys.readouterr()
     assert status == 2 and out == "" and not (tmp_path / "out").exists()
     assert err.startswith("hitch: ") and err.count("\n") == 1 and message in err

@@ -180,13 +180,16 @@ def test_names_that_cannot_be_fitted(exact: Trace) -> None:
             fit(without, names=names, fmu=Path("none.fmu"))
 
 
-def test_the_command(bench_fmu: Path, exact: Trace, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command(
+    bench_fmu: Path, exact: Trace, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Columns by name, units by header and by option; JSON; the files; a file of parameters for other commands."""
+    monkeypatch.setattr("overrun_hitch.commands.fit.our_fmu", lambda _: bench_fmu)
     table = np.column_stack([exact.time, 1e3 * exact.compression, exact.F_hitch / 1e3, exact.trailer_brake_torque])
     trace = tmp_path / "bench run.csv"
     np.savetxt(trace, table, delimiter=",", header="t,travel [mm],push,torque (Nm)", comments="", fmt="%.9g")
     arguments = ["fit", str(trace), "--time", "t", "--compression", "travel", "--force", "push", "--unit", "force=kN"]
-    options = ["--torque", "torque", "--fmu", str(bench_fmu), "--output", str(tmp_path / "out"), "--json"]
+    options = ["--torque", "torque", "--output", str(tmp_path / "out"), "--json"]
     assert cli.main([*arguments, *options]) == 0
     out, err = capsys.readouterr()
     said = json.loads(out)

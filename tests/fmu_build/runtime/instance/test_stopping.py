@@ -16,6 +16,7 @@ from tests.sampling import sampled, spread
 
 STEP = 0.01  # s
 BEYOND = 10.0  # s
+COASTING = 100.0  # N.s/m: such a damper takes 5 s to make a trailer in the clearance 2.7 times slower
 NAMES = ("v_car", "v_trailer", "compression", "F_hitch", "a_car", "a_trailer", "slip_car", "slip_trailer")
 
 # Strong enough to hold on any of the grades; with mu = 0.3 the second is beyond what the tyres can take.
@@ -83,6 +84,10 @@ def check_stop(library: Library, rest_within: float, rate: float = 12.0, dying: 
     """
     rows, counters = stop(library, **values)
     assert np.isfinite(rows).all()
+    if values["C"] <= COASTING and 0.0 < rows[-1, 2] < values["eps"]:
+        # The trailer has come to rest in the clearance, where nothing but a weak damper holds it.
+        assert np.abs(rows[-1, :2]).max() < 0.1 and counters[-1].events < rate * len(rows) * STEP
+        return
     slow = np.abs(rows[:, :2]).max(axis=1) < 1e-6
     stopped = np.flatnonzero(~slow)[-1] + 1  # the first point of the rest that lasts
     standstill = np.argmax(rows[:, 0] < 0.1)
