@@ -70,7 +70,8 @@ class Components:
         return self.number(expression)
 
     def number(self, expression: sympy.Expr) -> sympy.Expr:
-        """The expression with every parameter at the value that the model gives it."""
+        """The expression with every parameter at the number that the model gives it, if it is one. (Conditional
+        expressions, put into each other as they are, would grow exponentially.)"""
         for s in expression.free_symbols - self._numbers.keys():
             base, _, index = s.name.partition("[") if s.name not in self._nodes else (s.name, "", "")
             node = self._nodes.get(base)
@@ -79,7 +80,8 @@ class Components:
                 bound = self._read(node["binding"])
                 if index:
                     bound = spread(bound, node["dims"])[tuple(int(i) - 1 for i in index[:-1].split(","))]
-                self._numbers[s] = self.number(bound)
+                number = self.number(bound)
+                self._numbers[s] = number if number.is_number else s
         return expression.xreplace({s: self._numbers[s] for s in expression.free_symbols})
 
 

@@ -18,8 +18,12 @@ from typing import Any
 
 import rumoca
 
+from .algorithms import as_equations, first_section
+
 Request = Mapping[str, Any]
 
+ALGORITHM = "unsupported model algorithm"
+ALGORITHM_REMEDY = "what is assigned twice, or not in every branch, needs two names; or write the section as a function"
 # What rumoca says, what shows the place in the source, and what to do.
 REMEDIES = (
     (
@@ -45,10 +49,15 @@ def main(folder: Path) -> None:
 def _answer(request: Request, folder: Path) -> str:
     entry, class_name = Path(request["entry"]), request["class_name"]
     try:
-        if (entry.parent / "package.mo").exists():
-            model, files = _compiled(entry, request)
-        else:
-            model, files = _compiled_alone(entry, request, folder)
+        try:
+            if (entry.parent / "package.mo").exists():
+                model, files = _compiled(entry, request)
+            else:
+                model, files = _compiled_alone(entry, request, folder)
+        except rumoca.RumocaError as error:
+            if ALGORITHM not in str(error):
+                raise
+            model, files = _with_equations(entry, request, folder)
         if request["times"]:
             return json.dumps(_simulated(model, request))
         return f'{{"files": {json.dumps(files)}, "flat": {model.to_json("flat")}}}'
@@ -66,6 +75,21 @@ def _compiled(entry: Path, request: Request) -> tuple[rumoca.Model, list[tuple[i
     """The compiled class, and number, name and text of each file that was read."""
     model = rumoca.Session(roots=request["libraries"]).load(str(entry), model=request["class_name"])
     return model, model.to_dict("dae")["source_map"]["files"]
+
+
+def _with_equations(entry: Path, request: Request, folder: Path) -> tuple[rumoca.Model, list[tuple[int, str, str]]]:
+    """The same, with algorithm sections as equations where that says the same."""
+    original = entry.parent if (entry.parent / "package.mo").exists() else entry
+    copy = folder / "equations" / original.name
+    copy.parent.mkdir()
+    (shutil.copytree if original.is_dir() else shutil.copyfile)(original, copy)
+    for file in copy.rglob("*.mo") if copy.is_dir() else [copy]:
+        file.write_text(as_equations(file.read_text(encoding="utf-8")), encoding="utf-8")
+    try:
+        model, files = _compiled(copy / entry.name if copy.is_dir() else copy, request)
+    except rumoca.RumocaError as error:
+        raise type(error)(str(error).replace(str(copy), str(original))) from None
+    return model, [(number, name.replace(str(copy), str(original)), text) for number, name, text in files]
 
 
 def _compiled_alone(entry: Path, request: Request, folder: Path) -> tuple[rumoca.Model, list[tuple[int, str, str]]]:
@@ -105,11 +129,14 @@ def _located_message(text: str, entry: Path, class_name: str) -> str:
     if place := re.search(r" \[(\S+:\d+):\d+\]", message):
         return f"{place.group(1)}: {message.replace(place.group(0), '')}"
     files = _files(entry, class_name)
+    for file in files if ALGORITHM in message else ():
+        text = file.read_text(encoding="utf-8")
+        if (start := first_section(as_equations(text))) is not None:
+            return f"{file}:{_line(text, start)}: {message}: {ALGORITHM_REMEDY}"
     for said, shown, remedy in REMEDIES:
         for file in files if said in message else ():
             if found := re.search(shown, text := file.read_text(encoding="utf-8"), re.DOTALL):
-                number = text.count("\n", 0, found.start()) + 1
-                return f"{file}:{number}: {message}: {remedy.format(*found.groups())}"
+                return f"{file}:{_line(text, found.start())}: {message}: {remedy.format(*found.groups())}"
     for file in files:
         for diagnostic in rumoca.validate(str(file)):
             if place := re.search(r"\[(.+?:\d+):\d+\]", diagnostic.message):
@@ -143,6 +170,10 @@ def _classes(text: str) -> Iterator[str]:
     outer = f"{within[1]}.{first}" if within else first
     yield outer
     yield from (f"{outer}.{other}" for other in others)
+
+
+def _line(text: str, start: int) -> int:
+    return text.count("\n", 0, start) + 1
 
 
 def _files(entry: Path, class_name: str) -> list[Path]:

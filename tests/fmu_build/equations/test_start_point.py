@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable
 
 import pytest
 import sympy
@@ -10,6 +11,7 @@ import sympy
 from fmu_build.equations.start_point import starts_fit, value_at_start
 from fmu_build.ir.equations import Equation, Variable
 from fmu_build.ir.symbols import symbol
+from tests.fmu_build.conftest import CompiledModel
 
 
 def chain(depth: int) -> list[Variable]:
@@ -51,3 +53,22 @@ def test_what_depends_on_itself_has_no_value() -> None:
     variables = [*circle, *chain(3)]
     assert value_at_start(symbol("a") + symbol("p3"), variables) is None
     assert value_at_start(symbol("p3"), variables) == value(3)
+
+
+@pytest.mark.parametrize("first", ["= 0.3", "(start=0.3)"])  # a value, or one that may still be set
+def test_a_model_with_many_conditional_parameters(first: str, compiled_model: Callable[[str], CompiledModel]) -> None:
+    """The state's start value comes through thirty of them, and it ties another one."""
+    depth = 30
+    lines = [f"  parameter Real p{i} = if p{i - 1} > 1 then p{i - 1}/2 else 3*p{i - 1};" for i in range(1, depth + 1)]
+    model = compiled_model(
+        f"model M\n  parameter Real p0{first};\n"
+        + "\n".join(lines)
+        + f"\n  Real x(start=p{depth}, fixed=true), y, z;\n"
+        f"equation\n  der(x) = -x;\n  der(y) = z;\n  y = p{depth}*x;\nend M;"
+    )
+    p = 0.3
+    for _ in range(depth):
+        p = p / 2 if p > 1 else 3 * p
+    model.outputs()
+    assert model["x"] == pytest.approx(p, rel=1e-12)
+    assert model["y"] == pytest.approx(p**2, rel=1e-12)
