@@ -16,6 +16,7 @@ from fmu_build.fmu.compile import HEADERS
 needs_cmake = pytest.mark.skipif(shutil.which("cmake") is None, reason="cmake is not installed")
 
 
+@pytest.mark.full
 @needs_cmake
 def test_the_build_description_is_enough(car_trailer_fmus: dict[int, Path], tmp_path: Path) -> None:
     unpacked = Path(fmpy.extract(str(car_trailer_fmus[3]), unzipdir=str(tmp_path / "unit")))

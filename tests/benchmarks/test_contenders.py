@@ -30,6 +30,7 @@ def contenders(car_trailer_fmu: Path, tmp_path_factory: pytest.TempPathFactory) 
         yield {contender.name: contender for contender in everyone}
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("name", STYLES)
 def test_each_comes_as_close_to_the_oracle_as_its_tolerance_asks(name: str, contenders: dict[str, Contender]) -> None:
     if name not in contenders:

@@ -40,6 +40,7 @@ def described(units: dict[tuple[str, int], Path]) -> str:
     return "\n".join(sorted(set(lines))) + "\n"
 
 
+@pytest.mark.full
 def test_the_sources_of_six_units_make_one_program(units: dict[tuple[str, int], Path], tmp_path: Path) -> None:
     """Car and trailer, coupled there by the force to hold, move as the whole does."""
     objects = []

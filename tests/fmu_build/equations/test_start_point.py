@@ -32,7 +32,9 @@ def value(depth: int) -> int:
     return p
 
 
-@pytest.mark.parametrize("depth", [0, 1, 9, 60, 2000])  # deeper than Python's calls may be nested
+@pytest.mark.parametrize(
+    "depth", [0, 1, 9, 60, pytest.param(2000, marks=pytest.mark.full)]
+)  # deeper than Python's calls may be nested
 def test_parameters_that_follow_from_each_other(depth: int) -> None:
     variables = chain(depth)
     random.Random(depth).shuffle(variables)

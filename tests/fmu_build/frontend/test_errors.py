@@ -104,6 +104,7 @@ def test_the_command_line_ends_in_status_2_and_one_line(tmp_path: Path) -> None:
     assert "none.mo" in result.stderr and not output.exists()
 
 
+@pytest.mark.full
 def test_without_a_compiler(modelica_library: Path, tmp_path: Path) -> None:
     output = tmp_path / "out.fmu"
     arguments = (str(modelica_library), "OverrunHitch.Systems.CarTrailer", "-o", str(output))

@@ -105,6 +105,7 @@ def test_slow_motion_does_not_tell_what_follows_the_rate(bench_fmu: Path) -> Non
     assert told == set(FITTED) - {"C", "rebound", "tau_b"}
 
 
+@pytest.mark.full
 def test_a_trace_beyond_the_threshold_does_not_tell_it_from_the_clearance(bench_fmu: Path) -> None:
     """Only their sum is in the force; the brakes, which begin where the spring does, tell them apart."""
     pushed = noisy(truth(bench_fmu, TRUTH.model_dump(), middle=0.05), 0)

@@ -56,6 +56,7 @@ def test_an_fmu_that_ends_its_process_is_one_line_and_status_2(
     assert guests() == []
 
 
+@pytest.mark.full
 def test_one_of_a_pair_that_hangs(
     pair_fmus: dict[int, dict[str, Path]], car_trailer_fmu: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:

@@ -37,6 +37,7 @@ def test_runs_that_hang_or_crash_are_recorded_and_stop_nothing(
     assert list(temporary.iterdir()) == []
 
 
+@pytest.mark.full
 def test_the_time_limit_is_that_of_a_run(car_trailer_fmu: Path, tmp_path: Path) -> None:
     """Not of a batch: thirty runs of a tenth of a second, none longer than one."""
     fmu = stranger(car_trailer_fmu, tmp_path / "slow.fmu", do_step="if (time == 0.0) usleep(100000);")

@@ -135,6 +135,7 @@ def wait_until_gone(group: int) -> None:
     raise AssertionError("processes are left")
 
 
+@pytest.mark.full
 def test_a_killed_sweep_goes_on_where_it_stopped(
     car_trailer_fmu: Path, tmp_path: Path, undisturbed: xr.Dataset
 ) -> None:
