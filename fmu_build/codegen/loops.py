@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 
 import sympy
 
@@ -10,7 +10,7 @@ from ..errors import BuildError
 from ..ir.equations import Assignment, Loop
 from ..ir.linear import rest
 from ..ir.models import JacobianModel, LoopGradient, LoopPartials, SortedModel
-from .text import braced, comment, string
+from .text import braced, comment, function, string
 
 MOST_DOUBLES = 48_000  # on the stack, 384 KB: a thread may have no more than 512 KB (macOS)
 
@@ -127,8 +127,8 @@ def _declare(name: str, loop: Loop, references: dict[str, int], text: Text, line
     unknowns = ", ".join(str(references[unknown]) for unknown in loop.unknowns)
     guesses = ", ".join(str(references[guess]) for guess in loop.guesses) or "0"
     described = string(f"{', '.join(loop.unknowns)} ({loop.origin})")
-    return f"""{_function(f"{name}_residuals(Variables *v, const bool holds[], double residual[])", residuals)}
-{_function(f"{name}_slopes(const Variables *v, const bool holds[], double slope[])", slopes)}
+    return f"""{function(f"static {name}_residuals(Variables *v, const bool holds[], double residual[])", residuals)}
+{function(f"static {name}_slopes(const Variables *v, const bool holds[], double slope[])", slopes)}
 static const unsigned {name}_unknowns[] = {{{unknowns}}};
 static const unsigned {name}_guesses[] = {{{guesses}}};
 static const Loop {name} = {{
@@ -148,8 +148,3 @@ static void {name}_solve(Variables *v, const bool holds[])
     loop_solve(&{name}, v, holds, work, pivots);
 }}
 """
-
-
-def _function(signature: str, lines: Sequence[str]) -> str:
-    body = "\n".join(f"    {line}" for line in ("(void)v;", "(void)holds;", *lines))
-    return f"static void {signature}\n{{\n{body}\n}}\n"

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 import sympy
 from sympy.printing.c import C11CodePrinter
 
+from ..errors import BuildError
 from ..ir.equations import Block, Loop
 from ..ir.functions import no_number, power, reach_time, round_down, time_left
 from ..ir.symbols import TIME, relation_of
@@ -57,6 +58,8 @@ class Printer(C11CodePrinter):  # type: ignore[misc]
     def _print_Symbol(self, expr: sympy.Symbol) -> str:
         if (relation := relation_of(expr)) is not None:
             return f"holds[{relation}]"
+        if expr.name not in self.names and expr.name not in self.locals:
+            raise BuildError(f"{expr.name} is used, and nothing declares it: a defect of fmu_build, please report it")
         return f"v->{self.names[expr.name]}" if expr.name in self.names else self.locals[expr.name]
 
     def _print_Float(self, expr: sympy.Float) -> str:
@@ -143,18 +146,18 @@ class Printer(C11CodePrinter):  # type: ignore[misc]
 
 
 def function(signature: str, statements: Sequence[str]) -> str:
-    """A C function, in pieces if it is long."""
+    """A C function, in pieces if it is long. Its signature may begin with ``static``."""
     return (whole if len(statements) <= LONGEST_FUNCTION else in_pieces)(signature, statements)
 
 
 def in_pieces(signature: str, statements: Sequence[str], n_locals: int = 0) -> str:
     """A C function that calls pieces of itself, which share ``local[]`` if there are locals."""
-    name, _, parameters = signature.removesuffix(")").partition("(")
+    name, _, parameters = signature.removeprefix("static ").removesuffix(")").partition("(")
     arguments = ", ".join(_arguments(signature)) + (", local" if n_locals else "")
     pieces, calls = [], [f"double local[{n_locals}];"] if n_locals else []
     for number, first in enumerate(range(0, len(statements), PIECE), start=1):
         piece = f"{name}_{number}({parameters}{', double local[]' if n_locals else ''})"
-        pieces.append(f"NOT_INLINED static {whole(piece, statements[first : first + PIECE])}")
+        pieces.append(f"NOT_INLINED {whole(f'static {piece}', statements[first : first + PIECE])}")
         calls.append(f"{name}_{number}({arguments});")
     return "\n".join([*pieces, whole(signature, calls)])
 
@@ -165,7 +168,8 @@ def whole(signature: str, statements: Sequence[str]) -> str:
     body = re.sub(r"/\*.*?\*/|->\w+", "", "\n".join(lines))  # comments and fields may have the same name
     unused = [f"(void){a};" for a in _arguments(signature) if not re.search(rf"\b{a}\b", body)]
     text = "\n".join(f"    {line}" for line in [*unused, *lines])
-    return f"void {signature}\n{{\n{text}\n}}\n"
+    static = "static " if signature.startswith("static ") else ""
+    return f"{static}void {signature.removeprefix('static ')}\n{{\n{text}\n}}\n"
 
 
 def _arguments(signature: str) -> list[str]:

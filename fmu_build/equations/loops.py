@@ -14,7 +14,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from ..ir.equations import Assignment, Equation, Loop, Variable
-from ..ir.linear import rest, slope, switching_symbols
+from ..ir.linear import ZERO, rest, slope, slopes_by, switching_symbols
 from ..ir.symbols import guess_name, symbol
 
 
@@ -22,10 +22,10 @@ def make_loop(names: Sequence[str], matched: Mapping[str, Equation]) -> Loop:
     """The loop of the unknowns ``names``, each with the equation that it is matched with."""
     equations = [matched[name] for name in names]
     unknowns = {symbol(name) for name in names}
+    slopes_of = {e.residual: slopes_by(e.residual, unknowns) for e in equations}
     is_linear = not any(
-        unknowns & (switching_symbols(e.residual) | value.free_symbols)
-        for e in equations
-        for value in (e.residual.diff(s) for s in e.residual.free_symbols & unknowns)
+        unknowns & switching_symbols(residual) or any(unknowns & value.free_symbols for value in values.values())
+        for residual, values in slopes_of.items()
     )
     if not is_linear:
         names, matched = _rematch(names, equations)
@@ -38,9 +38,7 @@ def make_loop(names: Sequence[str], matched: Mapping[str, Equation]) -> Loop:
         (row, column): value
         for row, e in enumerate(residuals)
         for column, name in enumerate(order)
-        if symbol(name) in e.residual.free_symbols
-        for value in [e.residual.diff(symbol(name))]
-        if value != 0
+        if (value := slopes_of[e.residual].get(symbol(name), ZERO)) != 0
     }
     guesses = () if is_linear else tuple(guess_name(name) for name in iterated)
     return Loop(tuple(iterated), tuple(explicit), tuple(residuals), slopes, is_linear, guesses)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 
 import sympy
 
@@ -18,6 +18,15 @@ def slope(equation: Equation, unknown: str) -> sympy.Expr | None:
     s = symbol(unknown)
     result = equation.residual.diff(s)
     return None if result.has(s) or s in switching_symbols(equation.residual) else result
+
+
+def slopes_by(expression: sympy.Expr, unknowns: Set[sympy.Symbol]) -> dict[sympy.Symbol, sympy.Expr]:
+    """The derivatives by those unknowns that occur, term by term: SymPy's own look at every term for each unknown."""
+    terms: dict[sympy.Symbol, list[sympy.Expr]] = {}
+    for term in sympy.Add.make_args(expression):
+        for s in term.free_symbols & unknowns:
+            terms.setdefault(s, []).append(term.diff(s))
+    return {s: sympy.Add(*slopes) for s, slopes in terms.items()}
 
 
 def rest(equation: Equation, unknowns: Sequence[str]) -> sympy.Expr:

@@ -13,6 +13,7 @@ from fmu_build.codegen import model as printing
 from fmu_build.codegen import text as pieces
 from fmu_build.ir.models import SortedModel
 from tests.fmu_build.conftest import CompiledModel
+from tests.sampling import sampled
 
 WITH_LOOPS = """
 model M
@@ -63,7 +64,7 @@ def all_numbers(model: CompiledModel) -> list[float]:
     return numbers
 
 
-@pytest.mark.parametrize("text", [WITH_LOOPS, STRAIGHT])
+@pytest.mark.parametrize("text", sampled([WITH_LOOPS, STRAIGHT], {WITH_LOOPS}))
 def test_pieces_compute_the_same(
     text: str, sorted_model: Callable[[str], SortedModel], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

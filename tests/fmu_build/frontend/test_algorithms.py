@@ -13,6 +13,7 @@ from fmu_build.errors import BuildError
 from fmu_build.frontend.algorithms import as_equations
 from fmu_build.frontend.flatten import flatten
 from tests.fmu_build.conftest import Build, Writer
+from tests.sampling import sampled
 
 EQUATIONS = (
     "s := time; p := 2*s;",
@@ -81,7 +82,7 @@ MODELS: dict[str, tuple[str, Callable[[NDArray[np.float64]], NDArray[np.float64]
 }
 
 
-@pytest.mark.parametrize("case", MODELS)
+@pytest.mark.parametrize("case", sampled(MODELS, {"branches"}))
 def test_several_outputs(case: str, built: Build) -> None:
     body, exact = MODELS[case]
     declarations = "Real s, p, q;\n  Real x(start=0, fixed=true);"

@@ -9,6 +9,7 @@ import pytest
 from fmu_build.errors import BuildError
 from fmu_build.frontend.flatten import flatten
 from tests.fmu_build.conftest import Build, Writer
+from tests.sampling import sampled
 
 LEAF = "model Leaf\n  outer {0} k;\n  Real x(start=0, fixed=true);\nequation\n  der(x) = k;\nend Leaf;\n"
 MIDDLE = 'model Middle "an outer one; says nothing"\n  {0};\n  Leaf leaf;\n{1}end Middle;\n'
@@ -31,7 +32,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("case", sampled(CASES, {"passed on", "an Integer, hidden"}))
 def test_the_nearest_inner_one_counts(case: str, built: Build) -> None:
     kind, middle, gives, top, gives_top, slopes = CASES[case]
     text = LEAF.format(kind) + MIDDLE.format(middle, gives) + TOP.format(top, gives_top)
