@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 import overrun_hitch
 from overrun_hitch.parameters import DATUM
