@@ -47,11 +47,13 @@ def test_each_comes_as_close_to_the_oracle_as_its_tolerance_asks(name: str, cont
         assert counted.compression == pytest.approx(loose.compression, abs=1e-12)
 
 
+@pytest.mark.full
 def test_all_contenders_are_known_by_name(contenders: dict[str, Contender]) -> None:
     assert set(contenders) <= set(STYLES)
     assert set(AT_LEAST) | {FROM_C, FROM_FMPY, CVODE} <= set(contenders)
 
 
+@pytest.mark.full
 def test_fmpy_takes_the_steps_of_the_c_program(contenders: dict[str, Contender]) -> None:
     """So the C program counts for both: they differ by rounding, far less than runs whose steps differ."""
     c, other_steps = (np.array(contenders[FROM_C].solve(tolerance, False).compression) for tolerance in (1e-6, 7e-7))

@@ -28,6 +28,7 @@ def start(library: Path, folder: Path, platforms: str) -> subprocess.Popen[str]:
     )
 
 
+@pytest.mark.full
 @needs_zig
 @pytest.mark.skipif(os.name == "nt", reason="signals are sent otherwise on Windows")
 def test_an_interrupted_build_leaves_nothing_behind(modelica_library: Path, tmp_path: Path) -> None:

@@ -62,12 +62,14 @@ def test_dependencies_are_those_of_the_equations(car_trailer_fmu: Path) -> None:
     assert "brake_torque" in rates["der(car.wheel.omega)"]
 
 
+@pytest.mark.full
 def test_the_same_source_gives_the_same_bytes(car_trailer_fmu: Path, modelica_library: Path, tmp_path: Path) -> None:
     again = tmp_path / "again.fmu"
     build(modelica_library, "OverrunHitch.Systems.CarTrailer", again)
     assert again.read_bytes() == car_trailer_fmu.read_bytes()
 
 
+@pytest.mark.full
 def test_the_guid_changes_with_the_content(
     modelica_library: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

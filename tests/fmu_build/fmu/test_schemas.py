@@ -28,6 +28,7 @@ def units(car_trailer_fmus: dict[int, Path], pair_fmus: dict[int, dict[str, Path
     }
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("fmi", "file"), [(fmi, file) for fmi in FILES for file in FILES[fmi]])
 def test_valid(units: dict[tuple[str, int], Path], fmi: int, file: str) -> None:
     schema = etree.XMLSchema(etree.parse(str(SCHEMAS / FILES[fmi][file])))

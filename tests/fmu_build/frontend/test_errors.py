@@ -113,6 +113,7 @@ def test_without_a_compiler(modelica_library: Path, tmp_path: Path) -> None:
     assert "no C compiler" in result.stderr and list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.full
 def test_stages_and_their_times_on_request(modelica_file: Writer, tmp_path: Path) -> None:
     source = modelica_file("model M\n  Real x(start=1, fixed=true);\nequation\n  der(x) = -x;\nend M;")
     result = run_command(str(source), "M", "-o", str(tmp_path / "M.fmu"), "--verbose")

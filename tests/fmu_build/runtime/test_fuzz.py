@@ -26,6 +26,7 @@ def test_random_calls(model: Model, fmi: int) -> None:
     random_calls(fuzzer(model, fmi))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("fmi", sampled([2, 3], [3]))
 def test_random_calls_of_a_generated_model_with_a_coupling(fmi: int, modelica_library: Path) -> None:
     random_calls(fuzzer(generate(modelica_library, "OverrunHitch.Systems.Trailer"), fmi))

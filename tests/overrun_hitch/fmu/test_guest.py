@@ -126,6 +126,7 @@ def test_two_fmus_that_share_what_a_process_has_one_of_still_differ(
     assert check.comparisons[0].differing == []
 
 
+@pytest.mark.full
 def test_one_that_hangs_at_its_end_is_not_waited_for(car_trailer_fmu: Path, tmp_path: Path, temporary: Path) -> None:
     fmu = stranger(car_trailer_fmu, tmp_path / "stays.fmu", free=HANGS)
     with guest_unit(fmu) as unit:

@@ -115,7 +115,7 @@ def test_options_and_addresses(
     )
     assert "no Dask scheduler answers at 'tls://127.0.0.1:" in refusal(capsys, [*encrypted, *given])
     nobody = f"tcp://127.0.0.1:{free_port()}"
-    assert "refused" in refusal(capsys, [*command, "--scheduler", nobody])
+    assert f"no Dask scheduler answers at '{nobody}': " in refusal(capsys, [*command, "--scheduler", nobody])
     assert "no Dask scheduler answers" in refusal(capsys, [*command, "--scheduler", "tcp://nowhere.invalid:8786"])
 
 
