@@ -73,7 +73,7 @@ def undisturbed(car_trailer_fmu: Path, tmp_path_factory: pytest.TempPathFactory)
 
 def workers() -> list[psutil.Process]:
     """The processes that run for this one."""
-    found = psutil.Process().children(recursive=True)
+    found = [child for child in psutil.Process().children(recursive=True) if child.status() != psutil.STATUS_ZOMBIE]
     return [child for child in found if any("guest_process" in word for word in child.cmdline())]
 
 
