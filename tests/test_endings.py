@@ -82,7 +82,6 @@ def test_as_processes_of_their_own(module: str, buffering: str) -> None:
         (["overrun_hitch", "--help"], "typer"),
         pytest.param(["overrun_hitch", "stability"], "scipy", marks=pytest.mark.full),
         (["fmu_build", "--help"], "typer"),
-        pytest.param(["fmu_build", ".", "A", "-o", "a.fmu"], "rumoca", marks=pytest.mark.full),
     ],
 )
 def test_ctrl_c_while_it_imports(arguments: list[str], imported: str, tmp_path: Path) -> None:

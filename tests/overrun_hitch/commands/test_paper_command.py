@@ -44,7 +44,12 @@ def command(
 def test_files(command: Command, paper_figures: dict[str, Figure], tmp_path: Path) -> None:
     assert command(every=True) == 0
     names = {path.name for path in (tmp_path / "out").iterdir()}
-    stems = {f"figure-{name}" for name in paper_figures if name[0].isdigit()} | {"boundary", "cycles", "stops"}
+    stems = {f"figure-{name}" for name in paper_figures if name[0].isdigit()} | {
+        "boundary",
+        "cycles",
+        "device",
+        "stops",
+    }
     assert names == {f"{stem}.{kind}" for stem in stems for kind in ("svg", "png")}
     for path in (tmp_path / "out").iterdir():
         assert path.read_bytes().startswith(b"\x89PNG" if path.suffix == ".png" else b"<?xml")

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import shutil
 import socket
 import subprocess
 import sys
 import time
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -21,6 +23,15 @@ from overrun_hitch.sweeps import remote
 from overrun_hitch.sweeps.store import read_sweep
 
 SPEC = "metrics = ['peak_jerk']\ncommunication_step = 0.1\ngrid = {C = [100.0, 400.0, 900.0]}"
+
+
+@pytest.fixture(autouse=True)
+def sockets_that_dask_leaves() -> Iterator[None]:
+    """Of clients that find no scheduler: gone here, and not in the middle of another test."""
+    yield
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ResourceWarning)
+        gc.collect()
 
 
 def documented(program: str) -> list[str]:
