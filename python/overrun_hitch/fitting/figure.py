@@ -34,13 +34,15 @@ def draw(name: str, found: Fit) -> Figure:
             _pair(over_travel, 1e3 * found.motion.compression, measured[channel], model)
             over_travel.set_xlabel("Compression (mm)")
             over_travel.set_ylabel(f"{NAMES[channel]} ({unit})")
-            over_travel.legend(loc="upper left")
             _pair(over_time, found.trace.time, measured[channel], model)
             over_time.tick_params(labelbottom=False)
             left.plot(found.trace.time, measured[channel] - model, **LEFT)
             left.axhline(0.0, color="#555555", linewidth=0.8)
             left.set_ylabel(f"Residual ({unit})")
             left.set_xlabel("Time (s)")
+        # Below, for a curve over the travel may run anywhere.
+        handles, labels = over_travel.get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=2)
     return figure
 
 
