@@ -75,6 +75,16 @@ def test_names_that_it_uses_are_there(ssp: Path, pair_fmus: dict[int, dict[str, 
         assert used == {element.get("name") for element in document.iterfind(".//{*}Unit")}, name
 
 
+def test_a_place_that_cannot_be_written(
+    pair_fmus: dict[int, dict[str, Path]], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").touch()
+    for output in (tmp_path, tmp_path / "file" / "CarTrailer.ssp"):
+        assert main([str(pair_fmus[2]["Car"]), str(pair_fmus[2]["Trailer"]), "-o", str(output)]) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert str(output if output == tmp_path else output.parent) in line
+
+
 def test_the_same_bytes_again(ssp: Path, pair_fmus: dict[int, dict[str, Path]], tmp_path: Path) -> None:
     write_ssp(pair_fmus[2]["Car"], pair_fmus[2]["Trailer"], tmp_path / "again.ssp")
     assert (tmp_path / "again.ssp").read_bytes() == ssp.read_bytes()

@@ -124,7 +124,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     chosen = parser.parse_args(arguments)
     try:
         write_ssp(chosen.car, chosen.trailer, chosen.output)
-    except HitchError as error:
+    except (HitchError, OSError) as error:
         print(f"ssp: {error}", file=sys.stderr)
         return 2
     return 0

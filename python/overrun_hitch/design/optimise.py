@@ -39,7 +39,7 @@ SAME = 1e-9  # damping ratios closer than that do not differ
 class Wanted(Quantities):
     """The damping ratio to reach, at every speed from V_low to V_high."""
 
-    ratio: float = quantity(0.1, "1", "damping ratio", gt=0.0, lt=0.95)
+    ratio: float = quantity(0.1, "1", "damping ratio", ge=0.001, lt=0.95)  # less is lost in what the run is fitted to
     V_low: float = quantity(10.0, "m/s", "lowest speed", ge=1.0)
     V_high: float = quantity(40.0, "m/s", "highest speed", ge=1.0)
 

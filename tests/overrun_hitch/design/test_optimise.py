@@ -96,7 +96,7 @@ def test_what_can_not_be_reached_is_told_with_the_most() -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--ratio", "0"], "ratio = 0 is not allowed: damping ratio must be a finite number, greater than 0, less"),
+        (["--ratio", "0"], "ratio = 0 is not allowed: damping ratio must be a finite number, at least 0.001, less"),
         (["--V", "20"], "--V '20' is no range; allowed: A:B"),
         (["--V", "40:10"], "--V '40:10' is an empty range"),
         (["--V", "0:10"], "V_low = 0 m/s is not allowed"),
