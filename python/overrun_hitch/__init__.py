@@ -1,29 +1,49 @@
-"""Longitudinal oscillations of a car and its overrun-braked trailer (Sharp 1982), run as an FMU and judged."""
+"""Longitudinal oscillations of a car and its overrun-braked trailer (Sharp 1982), run as an FMU and judged.
+
+import overrun_hitch as hitch
+
+result = hitch.run("8", C=200)                      # a step brake: xarray, with units
+hitch.compare(result)                               # against linear theory: pandas
+hitch.plot(result).savefig("figure.png")
+hitch.run_many({"C": [100, 200], "eps": [0, 0.1]})  # thousands of runs in one table
+hitch.stability("ii", V=[10, 40])["C_crit"]         # the damper that is just enough
+hitch.fmu_path("Trailer", fmi=3)                    # the file, for a simulator
+"""
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from overrun_hitch.api import compare, fmu_path, plot, run, run_many, stability, sweep
     from overrun_hitch.fitting.fit import fit
     from overrun_hitch.fitting.trace import Trace
-    from overrun_hitch.sweeps.engine import sweep
+    from overrun_hitch.parameters import CASES, FIGURES, HitchError, Parameters
 
-__all__ = ["Trace", "fit", "sweep"]
+    __version__: str
+
+# Where each name is at home: loaded only when it is asked for, because the independent check needs numpy alone, and
+# nobody should wait for what is not used.
+_HOMES = {
+    **dict.fromkeys(("compare", "fmu_path", "plot", "run", "run_many", "stability", "sweep"), "api"),
+    **dict.fromkeys(("CASES", "FIGURES", "HitchError", "Parameters"), "parameters"),
+    "fit": "fitting.fit",
+    "Trace": "fitting.trace",
+}
+__all__ = ["CASES", "FIGURES", "HitchError", "Parameters", "Trace", "__version__", "compare", "fit", "fmu_path", "plot",
+           "run", "run_many", "stability", "sweep"]  # fmt: skip
 
 
 def __getattr__(name: str) -> Any:
-    # Only when it is asked for: Dask would slow down every start, and the independent check needs numpy alone.
-    if name == "sweep":
-        from overrun_hitch.sweeps.engine import sweep
+    if name == "__version__":
+        from importlib.metadata import version
 
-        return sweep
-    if name == "fit":
-        from overrun_hitch.fitting.fit import fit
+        return version("overrun_hitch")
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
 
-        return fit
-    if name == "Trace":
-        from overrun_hitch.fitting.trace import Trace
 
-        return Trace
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

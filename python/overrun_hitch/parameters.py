@@ -120,12 +120,16 @@ def unknown(kind: str, name: str, names: Iterable[str]) -> str:
 
 
 def _alike(name: str, names: list[str]) -> list[str]:
-    """Those which differ in case and signs alone; if there are none, up to three spellings that look like it."""
+    """Those which differ in case and signs alone; if there are none, up to three like it, the closest first."""
     plain = {other: re.sub(r"[\W_]", "", other).casefold() for other in names}
     asked = re.sub(r"[\W_]", "", name).casefold()
     close = difflib.get_close_matches(asked, set(plain.values()), n=3, cutoff=0.6)
-    wanted = {asked} & set(close) or set(close)
-    return [other for other in names if plain[other] in wanted]
+    wanted = [asked] if asked in close else sorted(close, key=lambda spelling: _distance(asked, spelling))
+    return [other for spelling in wanted for other in names if plain[other] == spelling]
+
+
+def _distance(one: str, other: str) -> tuple[float, str]:
+    return -difflib.SequenceMatcher(None, other, one).ratio(), other
 
 
 # Far beyond any vehicle. From there on double precision loses what forces follow from, a slip or a compression, and a

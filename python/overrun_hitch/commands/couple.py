@@ -15,10 +15,10 @@ from overrun_hitch.commands.options import (
     TimeLimitOption,
     asked_changes,
     file_stem,
-    name_with,
     our_fmu,
 )
 from overrun_hitch.parameters import CASES, named
+from overrun_hitch.scenarios import name_with
 
 STEPS = "0.001,0.002,0.005,0.01,0.02,0.05"
 

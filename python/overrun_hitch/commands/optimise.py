@@ -15,9 +15,9 @@ from overrun_hitch.commands.options import (
     TimeLimitOption,
     asked_changes,
     chosen_fmu,
-    name_with,
 )
 from overrun_hitch.parameters import CASES, DATUM, HitchError, Parameters, named
+from overrun_hitch.scenarios import name_with
 
 
 def optimise(

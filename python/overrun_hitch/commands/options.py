@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -63,12 +62,6 @@ def parameters_of(file: Path) -> dict[str, float]:
     except HitchError as error:
         raise HitchError(f"{file}: {error}") from None
     return {name: float(getattr(checked, name)) for name in table}
-
-
-def name_with(name: str, before: Parameters, after: Parameters, others: Mapping[str, float] | None = None) -> str:
-    """`name` and what was changed: "case ii, C=200". What is drawn and written must not pass for the paper's."""
-    changed = {p: getattr(after, p) for p in Parameters.model_fields if getattr(after, p) != getattr(before, p)}
-    return ", ".join([name, *(f"{key}={value:g}" for key, value in {**changed, **(others or {})}.items())])
 
 
 def file_stem(name: str) -> str:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -17,9 +16,9 @@ from overrun_hitch.commands.options import (
     asked_changes,
     chosen_fmu,
     file_stem,
-    name_with,
 )
-from overrun_hitch.parameters import CASES, FIGURES, HitchError, Scenario, named
+from overrun_hitch.parameters import CASES, FIGURES
+from overrun_hitch.scenarios import asked_scenario
 
 
 def run(
@@ -63,18 +62,3 @@ def run(
         paths = [table, *traces.write(result, stem)]
     theory_table.show(scenario, result, rows, paths)
     return 1 if any(row.differs for row in rows) else 0
-
-
-def asked_scenario(
-    figure: str | None, case: str | None, changes: Mapping[str, Any], **settings: float | None
-) -> Scenario:
-    """The scenario that the options ask for; figure 8 unless they say otherwise."""
-    if figure is not None and case is not None:
-        raise HitchError("--figure and --case exclude each other: a case is figure 8 with that case's parameters")
-    scenario: Scenario = named("figure", "8" if figure is None else figure, FIGURES)
-    if case is not None:
-        scenario = scenario.changed(name=f"case {case}", parameters=named("case", case, CASES))
-    given = {name: value for name, value in settings.items() if value is not None}
-    parameters = scenario.parameters.changed(changes)
-    name = name_with(scenario.name, scenario.parameters, parameters, given)
-    return scenario.changed(name=name, parameters=parameters, **given)

@@ -24,10 +24,10 @@ from overrun_hitch.commands.options import (
     asked_changes,
     chosen_fmu,
     file_stem,
-    name_with,
 )
 from overrun_hitch.commands.sweep import RepairOption
 from overrun_hitch.parameters import CASES, DATUM, named
+from overrun_hitch.scenarios import name_with
 
 
 def sensitivity(

@@ -10,8 +10,9 @@ import typer
 
 from overrun_hitch.commands.hints import hint
 from overrun_hitch.commands.numbers import evenly, numbers
-from overrun_hitch.commands.options import ParametersOption, SetOption, asked_changes, file_stem, name_with
+from overrun_hitch.commands.options import ParametersOption, SetOption, asked_changes, file_stem
 from overrun_hitch.parameters import CASES, DATUM, Parameters, named
+from overrun_hitch.scenarios import name_with
 
 DAMPERS = "0:3200"  # N.s/m, the paper's range
 SPEED = 20.0  # m/s, at which the paper draws its root loci

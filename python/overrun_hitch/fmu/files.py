@@ -11,15 +11,27 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from overrun_hitch.parameters import HitchError
+from overrun_hitch.parameters import HitchError, unknown
 
 ROOT = Path(__file__).resolve().parents[3]
 LIBRARY = ROOT / "modelica" / "OverrunHitch"
 READY_MADE = Path(__file__).resolve().parents[1] / "fmus"  # put there by `make dist`
-OURS = (ROOT / "build" if LIBRARY.is_dir() else READY_MADE) / "fmi2"  # a file there has the name of its class
-CAR_TRAILER, CAR, TRAILER, BENCH = (OURS / f"{name}.fmu" for name in ("CarTrailer", "Car", "Trailer", "Bench"))
+NAMES = ("CarTrailer", "Car", "Trailer", "Bench")  # of classes, and of their files
+VERSIONS = (2, 3)  # of FMI
 GENERATOR = ROOT / "fmu_build"
 SOURCES = {".mo", ".order", ".py", ".c", ".h"}
+
+
+def place(name: str, fmi: int = 2) -> Path:
+    """Where our FMU of this name is, or will be once it is built. HitchError for a name or a version that is not."""
+    if name not in NAMES:
+        raise HitchError(unknown("FMU of ours", name, NAMES))
+    if fmi not in VERSIONS:
+        raise HitchError(f"fmi = {fmi!r:.40} is not allowed; allowed: {' or '.join(map(str, VERSIONS))}")
+    return (ROOT / "build" if LIBRARY.is_dir() else READY_MADE) / f"fmi{fmi}" / f"{name}.fmu"
+
+
+CAR_TRAILER, CAR, TRAILER, BENCH = (place(name) for name in NAMES)
 
 
 def is_current(fmu: Path = CAR_TRAILER) -> bool:
@@ -31,14 +43,24 @@ def is_current(fmu: Path = CAR_TRAILER) -> bool:
 
 
 def build(fmu: Path = CAR_TRAILER) -> None:
-    """Make the FMU from the class of its name in the Modelica library.
+    """Make the FMU from the class of its name in the Modelica library, of the FMI version that its folder tells.
 
     HitchError with the generator's own line where it cannot be made.
     """
     if not LIBRARY.is_dir():
         raise HitchError(f"{LIBRARY} is not there, so {fmu.name} cannot be built; give a built one with --fmu")
     class_name = f"{LIBRARY.name}.Systems.{fmu.stem}"
-    command = [sys.executable, "-m", "fmu_build", str(LIBRARY), class_name, "-o", str(fmu), "--fmi", "2"]
+    command = [
+        sys.executable,
+        "-m",
+        "fmu_build",
+        str(LIBRARY),
+        class_name,
+        "-o",
+        str(fmu),
+        "--fmi",
+        fmu.parent.name[-1],
+    ]
     search = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
     done = subprocess.run(
         command, cwd=ROOT, env={**os.environ, "PYTHONPATH": search}, capture_output=True, text=True, check=False

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
@@ -17,12 +17,16 @@ from overrun_hitch.fmu.messages import StepRefused
 
 Floats = NDArray[np.float64]
 
+# fmpy's own prototypes convert every argument anew in each call; these take what was made once.
+DO_STEP = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int)
+GET_REAL = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p)
+
 
 class Sampler:
     """Steps a started unit through communication points and reads the same variables at each, run after run.
 
     The same calls as Unit.step and Unit.get, with arguments made once: 100 points cost 0.1 ms beside the unit's own
-    work instead of 1.5 ms through fmpy's wrappers.
+    work instead of 0.7 ms through fmpy's wrappers.
     """
 
     def __init__(
@@ -36,10 +40,15 @@ class Sampler:
         count = len(references)
         self._slave = slave
         self._refusal = refusal
-        self._references = (ctypes.c_uint * count)(*references)
         self._table: Floats = np.empty((len(points), count))
-        self._rows = [(ctypes.c_double * count).from_buffer(row) for row in self._table]
-        self._times = points.tolist()
+        self._references = (ctypes.c_uint * count)(*references)
+        component, places = ctypes.c_void_p(slave.component), ctypes.c_void_p(ctypes.addressof(self._references))
+        first, *rows = [ctypes.c_void_p(row.ctypes.data) for row in self._table]
+        self._read_first = (component, places, ctypes.c_size_t(count), first)
+        self._steps = [
+            ((component, ctypes.c_double(now), ctypes.c_double(size), ctypes.c_int(1)), (*self._read_first[:3], row))
+            for now, size, row in zip(points[:-1].tolist(), np.diff(points).tolist(), rows, strict=True)
+        ]
         self._fed = fed and _course(*fed)
 
     def run(self, before_step: Mapping[int, Callable[[], None]] | None = None) -> Floats:
@@ -48,24 +57,31 @@ class Sampler:
         An input that is fed has its value and its slope set before each step. `before_step` is called before the
         steps with these numbers, to change inputs. StepRefused as for Unit.step.
         """
-        do_step, get_real = self._slave.dll.fmi2DoStep, self._slave.dll.fmi2GetReal
-        set_real, set_slope = self._slave.dll.fmi2SetReal, self._slave.dll.fmi2SetRealInputDerivatives
-        component, references, count = self._slave.component, self._references, len(self._references)
-        self._check("fmi2GetReal", get_real(component, references, count, self._rows[0]))
-        for step, (now, then, row) in enumerate(zip(self._times, self._times[1:], self._rows[1:], strict=False)):
-            if before_step and step in before_step:
-                before_step[step]()
+        do_step = DO_STEP(ctypes.cast(self._slave.dll.fmi2DoStep, ctypes.c_void_p).value or 0)
+        get_real = GET_REAL(ctypes.cast(self._slave.dll.fmi2GetReal, ctypes.c_void_p).value or 0)
+        changes = before_step or {}
+        if (status := get_real(*self._read_first)) > fmi2Warning:
+            self._refuse("fmi2GetReal", status)
+        for number, (step, read) in enumerate(self._steps):
+            if number in changes:
+                changes[number]()
             if self._fed:
-                reference, order, values, slopes = self._fed
-                self._check("fmi2SetReal", set_real(component, reference, 1, values[step]))
-                self._check("fmi2SetRealInputDerivatives", set_slope(component, reference, 1, order, slopes[step]))
-            self._check("fmi2DoStep", do_step(component, now, then - now, 1))
-            self._check("fmi2GetReal", get_real(component, references, count, row))
+                self._feed(number, *self._fed)
+            if (status := do_step(*step)) > fmi2Warning:
+                self._refuse("fmi2DoStep", status)
+            if (status := get_real(*read)) > fmi2Warning:
+                self._refuse("fmi2GetReal", status)
         return self._table
 
-    def _check(self, function: str, status: int) -> None:
-        if status > fmi2Warning:
-            raise StepRefused(self._refusal(FMICallException(function, status)))
+    def _feed(self, step: int, reference: Any, order: Any, values: list[Any], slopes: list[Any]) -> None:
+        dll, component = self._slave.dll, self._slave.component
+        if (status := dll.fmi2SetReal(component, reference, 1, values[step])) > fmi2Warning:
+            self._refuse("fmi2SetReal", status)
+        if (status := dll.fmi2SetRealInputDerivatives(component, reference, 1, order, slopes[step])) > fmi2Warning:
+            self._refuse("fmi2SetRealInputDerivatives", status)
+
+    def _refuse(self, function: str, status: int) -> NoReturn:
+        raise StepRefused(self._refusal(FMICallException(function, status)))
 
 
 def _course(reference: int, values: Floats, slopes: Floats) -> tuple[Any, Any, list[Any], list[Any]]:

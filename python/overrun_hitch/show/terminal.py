@@ -51,10 +51,10 @@ class _Rate(ProgressColumn):
 
 
 @contextmanager
-def counting(what: str) -> Iterator[Callable[[int, int, int], None]]:
+def counting(what: str, is_kept: bool = True) -> Iterator[Callable[[int, int, int], None]]:
     """Show a bar with rate and time left on stderr, where that is a terminal; after Ctrl-C how far it came.
 
-    Gives a function that is told runs done, failed ones among them, and runs in all. What is done must be kept.
+    Gives a function that is told runs done, failed ones among them, and runs in all. `is_kept`: so is what is done.
     """
     ahead = TimeRemainingColumn(), TextColumn("{task.description}")
     columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), _Rate(), *ahead)
@@ -72,5 +72,6 @@ def counting(what: str) -> Iterator[Callable[[int, int, int], None]]:
     except KeyboardInterrupt:
         for task in progress.tasks:
             so_far = f"{task.completed:.0f} of {task.total:.0f} runs are done"
-            print(f"interrupted, {so_far}; the same command goes on", file=sys.stderr)
+            goes_on = "; the same command goes on" if is_kept else ""
+            print(f"interrupted, {so_far}{goes_on}", file=sys.stderr)
         raise

@@ -1,3 +1,3 @@
 """Many runs, on all cores or a cluster."""
 
-__all__ = ["engine", "map", "plan", "planner", "remote", "spec", "table"]
+__all__ = ["engine", "job", "many", "map", "plan", "planner", "remote", "spec", "table"]

@@ -9,7 +9,7 @@ from __future__ import annotations
 import itertools
 import logging
 import uuid
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -23,7 +23,7 @@ from distributed.utils import silence_logging_cmgr
 
 from overrun_hitch.fmu.settings import TIME_LIMIT, checked_time_limit
 from overrun_hitch.parameters import HitchError
-from overrun_hitch.sweeps.job import Batch, Done, Job
+from overrun_hitch.sweeps.job import Batch, Done, Job, Progress
 from overrun_hitch.sweeps.layout import FAILED, MISSING
 from overrun_hitch.sweeps.local_crew import LocalCrew
 from overrun_hitch.sweeps.plan import Plan
@@ -36,8 +36,6 @@ from overrun_hitch.sweeps.worker import Runners, run_batch
 AHEAD = 2  # batches for each thread of a worker: one under way, one at hand
 WORKERS_PATIENCE = 60.0  # s, for the first worker
 WORKER_DIED = "the worker process died in this run, and again when it was repeated"
-
-Progress = Callable[[int, int, int], object]  # told runs done, failed ones among them, runs in all
 
 
 def sweep(

@@ -5,7 +5,7 @@ Nothing heavy is imported here, because every worker does.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from overrun_hitch.fmu.profiles import Profile
 
 Floats = NDArray[np.float64]
+Progress = Callable[[int, int, int], object]  # told runs done, failed ones among them, runs in all
 
 
 @dataclass(frozen=True)

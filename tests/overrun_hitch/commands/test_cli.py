@@ -15,11 +15,11 @@ from typer.testing import CliRunner
 import overrun_hitch
 from overrun_hitch import cli
 from overrun_hitch.commands.options import assignments
-from overrun_hitch.commands.run import asked_scenario
 from overrun_hitch.comparison import theory_table
 from overrun_hitch.fmu import files as fmu
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.parameters import FIGURES, HitchError
+from overrun_hitch.scenarios import asked_scenario
 
 BAD = [
     (["--set", "Q=1"], "there is no parameter 'Q'; allowed: "),
@@ -36,7 +36,7 @@ BAD = [
     (["--set", "C"], "--set 'C' is not NAME=VALUE"),
     (["--figure", "12"], "there is no figure '12'; allowed: "),
     (["--case", "x"], "there is no case 'x'; did you mean ix? allowed: i, "),
-    (["--figure", "8", "--case", "ii"], "--figure and --case exclude each other"),
+    (["--figure", "8", "--case", "ii"], "figure and case exclude each other"),
     (["--duration", "0"], "duration = 0 s"),
     (["--duration", "inf"], "duration = inf s"),
     (["--duration", "soon"], "Invalid value for '--duration'"),

@@ -12,10 +12,10 @@ import pytest
 from overrun_hitch import cli
 from overrun_hitch.commands.numbers import evenly, numbers
 from overrun_hitch.commands.options import file_stem, parameters_of
-from overrun_hitch.commands.run import asked_scenario
 from overrun_hitch.commands.stability import doubling
 from overrun_hitch.modes.study import stability
 from overrun_hitch.parameters import CASES, DATUM, FIGURES, HitchError, Parameters
+from overrun_hitch.scenarios import asked_scenario
 from overrun_hitch.theory.linear import shunting_mode
 from overrun_hitch.theory.steady import steady
 from tests.sampling import sampled

@@ -1,0 +1,251 @@
+"""What scripts call: `import overrun_hitch as hitch`, then hitch.run(...), hitch.run_many(...) and so on.
+
+All values are in SI units; parameters have the paper's symbols (hitch.Parameters). Whatever the caller can mend is a
+HitchError, whose message names the thing and says what is allowed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from overrun_hitch.parameters import HitchError, Parameters, named
+from overrun_hitch.scenarios import asked_scenario, name_with
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+    from overrun_hitch.sweeps.job import Progress
+    from overrun_hitch.sweeps.spec import SweepSpec
+
+    Numbers = Sequence[float]
+
+TIME_LIMIT = 60.0  # s
+
+
+def fmu_path(name: str = "CarTrailer", fmi: int = 2) -> Path:
+    """The file of our FMU `name` (CarTrailer, Car, Trailer, Bench) of FMI `fmi` (2 or 3), built first if need be.
+
+    An installed package brings the files; a clone of the repository builds them from Modelica with its C compiler.
+
+    >>> fmu_path("Trailer", fmi=3).name
+    'Trailer.fmu'
+    """
+    from overrun_hitch.fmu.files import build, is_current, place
+
+    path = place(name, fmi)
+    if not is_current(path):
+        build(path)
+    return path
+
+
+def run(
+    figure: str | None = None,
+    case: str | None = None,
+    *,
+    fmu: str | Path | None = None,
+    brake_torque: float | None = None,
+    duration: float | None = None,
+    relative_tolerance: float = 1e-6,
+    communication_step: float = 0.01,
+    time_limit: float = TIME_LIMIT,
+    **parameters: float,
+) -> xr.Dataset:
+    """A step brake of the paper's figure ("8" unless said otherwise) or of figure 8 with a case's parameters.
+
+    `parameters` change single ones: C=200. brake_torque in N.m on the car's wheels (1000), duration in s (6),
+    communication_step in s, from output point to output point. fmu: a file of somebody else's; it runs, like ours, in a
+    process of its own for at most time_limit (s).
+
+    The result has the FMU's outputs (time,) with units and long_name, and what was run as attributes.
+
+    >>> result = run("8", C=200)
+    >>> round(float(result["compression"].max()), 4), result["compression"].attrs["units"]
+    (0.0512, 'm')
+    """
+    from overrun_hitch.experiments.step_brake import step_brake
+
+    scenario = asked_scenario(figure, case, parameters, brake_torque=brake_torque, duration=duration)
+    return step_brake(
+        scenario,
+        fmu=fmu_path() if fmu is None else Path(fmu),
+        relative_tolerance=relative_tolerance,
+        communication_step=communication_step,
+        time_limit=time_limit,
+    )
+
+
+def run_many(
+    varied: Mapping[str, Numbers],
+    figure: str | None = None,
+    case: str | None = None,
+    *,
+    outputs: Sequence[str] = ("compression",),
+    metrics: Sequence[str] = (),
+    fmu: str | Path | None = None,
+    workers: int | None = None,
+    duration: float | None = None,
+    relative_tolerance: float = 1e-6,
+    communication_step: float = 0.06,
+    time_limit: float = TIME_LIMIT,
+    progress: Progress | None = None,
+    **parameters: float,
+) -> xr.Dataset:
+    """Step brakes for every combination of the values in `varied`, parameters or brake_torque: {"C": [...], ...}.
+
+    One instance runs them all, reset in between. workers: so many processes; 0: this one, which is the default for our
+    own FMU (somebody else's gets a process for itself in any case). What else is as for `run`. progress is told runs
+    done, failed ones among them, and runs in all; else a bar shows on a terminal. For more than fits into memory, for
+    samples, profiles, clusters and interruptions: `sweep`.
+
+    The result has dimensions as `varied`, and time: `outputs` over both, `metrics` (names in docs/sweep.md) and
+    `message`, why a run failed or "", over the former.
+
+    >>> many = run_many({"C": [100, 500], "eps": [0, 0.05, 0.1]}, metrics=["peak_compression"])
+    >>> dict(many.sizes)
+    {'C': 2, 'eps': 3, 'time': 101}
+    >>> round(float(many["peak_compression"].sel(C=500, eps=0.1)), 4)
+    0.1865
+    """
+    from overrun_hitch.show import terminal
+    from overrun_hitch.sweeps.many import run_in_memory
+    from overrun_hitch.sweeps.planner import planned
+    from overrun_hitch.sweeps.spec import SweepSpec
+
+    twice = [name for name in parameters if name in varied]
+    if twice:
+        raise HitchError(f"{twice[0]} is varied and given; allowed: one of them")
+    base = asked_scenario(figure, case, parameters, duration=duration)
+    spec = SweepSpec(
+        name="many runs",
+        grid={name: [float(value) for value in values] for name, values in varied.items()},
+        parameters={name: value for name, value in base.parameters.model_dump().items() if name not in varied},
+        trajectories=list(outputs),
+        metrics=list(metrics),
+        duration=base.duration,
+        communication_step=communication_step,
+        relative_tolerance=relative_tolerance,
+    )
+    file = fmu_path() if fmu is None else Path(fmu)
+    plan = planned(spec, [file])
+    count = (0 if fmu is None else 1) if workers is None else max(workers, 0 if fmu is None else 1)
+    if progress is not None:
+        return run_in_memory(plan, file, time_limit, count, progress)
+    with terminal.counting("runs", is_kept=False) as told:
+        return run_in_memory(plan, file, time_limit, count, told)
+
+
+def compare(result: xr.Dataset, *, fmu: str | Path | None = None, time_limit: float = TIME_LIMIT) -> pd.DataFrame:
+    """A result of `run` against linear theory: expected, found, difference, allowed, unit, verdict of each quantity.
+
+    Growth rate and frequency of the shunting oscillation, the paper's A, A/A_c and D. The verdict is "agrees",
+    "differs" or "not judged", with a reason. fmu: the file that was run, if it was not ours.
+
+    >>> table = compare(run("8"))
+    >>> set(table["verdict"])
+    {'agrees'}
+    """
+    import pandas as pd
+
+    from overrun_hitch.comparison.theory import compare as judged
+    from overrun_hitch.experiments.step_brake import car_alone, step_brake
+    from overrun_hitch.results import scenario_of
+
+    alone = step_brake(
+        car_alone(scenario_of(result)),
+        fmu=fmu_path() if fmu is None else Path(fmu),
+        relative_tolerance=float(result.attrs["relative_tolerance"]),
+        communication_step=float(result.attrs["communication_step"]),
+        time_limit=time_limit,
+    )
+    columns = ("unit", "expected", "found", "difference", "allowed", "verdict", "not_judged")
+    rows = judged(result, alone)
+    index = pd.Index([row.quantity for row in rows], name="quantity")
+    table: pd.DataFrame = pd.DataFrame([[getattr(row, name) for name in columns] for row in rows], index, columns)
+    return table
+
+
+def stability(
+    case: str | None = None,
+    *,
+    C: float | Numbers = (0.0, 50.0, 100.0, 200.0, 400.0, 800.0, 1600.0, 3200.0),
+    V: float | Numbers = 20.0,
+    deceleration: float = 0.0,
+    **parameters: float,
+) -> xr.Dataset:
+    """The shunting mode by linear theory for dampers C (N.s/m) and speeds V (m/s); no FMU is run.
+
+    About gentle motion, or steady braking by `deceleration` (m/s2). HitchError for a parameter that theory lacks.
+
+    The result has growth_rate (1/s), frequency (Hz), damping_ratio, amplitude_ratio, phase (deg) over V and C, and
+    over V alone C_crit (N.s/m), the damper below which the combination shunts by itself.
+
+    >>> found = stability("ii", V=[10, 20, 40])
+    >>> [round(float(value), 1) for value in found["C_crit"]]
+    [30.2, 60.4, 120.7]
+    """
+    import numpy as np
+    import xarray as xr
+
+    from overrun_hitch.modes.study import UNITS
+    from overrun_hitch.modes.study import stability as analyse
+    from overrun_hitch.parameters import CASES, DATUM
+
+    start: Parameters = DATUM if case is None else named("case", case, CASES)
+    speeds, dampers = (np.atleast_1d(np.asarray(values, dtype=np.float64)) for values in (V, C))
+    name = name_with("datum" if case is None else f"case {case}", start, start.changed(parameters))
+    study = analyse(name, start.changed(parameters), dampers.tolist(), speeds.tolist(), deceleration)
+    names = ("growth_rate", "frequency", "damping_ratio", "amplitude_ratio", "phase")
+    shape = len(speeds), len(dampers)
+    table = {key: np.array([getattr(row, key) for row in study.rows]).reshape(shape) for key in names}
+    data: dict[str, Any] = {key: (("V", "C"), values, {"units": UNITS[key]}) for key, values in table.items()}
+    data["C_crit"] = ("V", [each.C_crit for each in study.boundaries], {"units": UNITS["C_crit"]})
+    axes: dict[str, Any] = {"V": ("V", speeds, {"units": "m/s"}), "C": ("C", dampers, {"units": "N.s/m"})}
+    return xr.Dataset(data, axes, {"title": name, **study.parameters.model_dump()})
+
+
+def plot(result: xr.Dataset) -> Figure:
+    """The traces of a result of `run`, as the paper draws them; a notebook shows them, savefig writes them.
+
+    >>> len(plot(run("8")).axes)
+    3
+    """
+    from overrun_hitch.show.traces import draw
+
+    return draw(result)
+
+
+def sweep(
+    spec: SweepSpec | Mapping[str, Any] | str | Path,
+    store: str | Path,
+    *,
+    fmus: Sequence[str | Path] = (),
+    scheduler: str | None = None,
+    workers: int | None = None,
+    repair: bool = False,
+    time_limit: float = TIME_LIMIT,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Run what is missing of a sweep in the Zarr `store`, and return the whole; interrupted, it goes on from there.
+
+    spec: a TOML file or its settings (docs/sweep.md). fmus: the files to run where the spec names none. scheduler: the
+    address of a Dask scheduler; else `workers` processes on this machine. repair: run again what is damaged.
+    """
+    from overrun_hitch.show import terminal
+    from overrun_hitch.sweeps.engine import sweep as run_sweep
+
+    asked = Path(spec) if isinstance(spec, str) else spec
+    with terminal.counting("runs") as told:
+        return run_sweep(
+            asked,
+            Path(store),
+            fmus=[Path(file) for file in fmus],
+            scheduler=scheduler,
+            workers=workers,
+            repair=repair,
+            time_limit=time_limit,
+            progress=progress or told,
+        )

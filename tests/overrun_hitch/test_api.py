@@ -1,0 +1,142 @@
+"""What scripts call: examples in the docstrings, types that an editor sees, files as text, and nothing loaded early."""
+
+from __future__ import annotations
+
+import doctest
+import subprocess
+import sys
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy.fmi2 import FMU2Slave
+
+import overrun_hitch as hitch
+from overrun_hitch import api
+from overrun_hitch.fmu.files import NAMES, ROOT
+
+C, EPS = [100.0, 350.0, 2500.0], [0.0, 0.03]
+
+
+def test_examples_of_the_docstrings() -> None:
+    found = doctest.testmod(api)
+    assert found.attempted > 10
+    assert found.failed == 0
+
+
+@pytest.mark.parametrize("text", ["README.md", "docs/sweep.md"])
+def test_examples_of_the_documentation(text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    found = doctest.testfile(str(ROOT / text), module_relative=False, optionflags=doctest.NORMALIZE_WHITESPACE)
+    assert found.attempted > 2
+    assert found.failed == 0
+
+
+def test_all_names_are_there_and_said() -> None:
+    assert {name for name in hitch.__all__ if getattr(hitch, name) is None} == set()
+    assert set(hitch.__all__) <= set(dir(hitch))
+    assert all(f"hitch.{name}(" in str(hitch.__doc__) for name in ("run", "run_many", "compare", "plot", "stability"))
+    with pytest.raises(AttributeError, match="no attribute 'simulate'"):
+        _ = hitch.simulate  # type: ignore[attr-defined]
+
+
+def test_nothing_is_loaded_before_it_is_used() -> None:
+    code = "import sys; before = set(sys.modules); import overrun_hitch; print(*(set(sys.modules) - before))"
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    third = {name.partition(".")[0] for name in loaded} - set(sys.stdlib_module_names)
+    assert third == {"overrun_hitch"}
+
+
+@pytest.mark.full
+def test_types_reach_a_script(tmp_path: Path) -> None:
+    script = tmp_path / "script.py"
+    script.write_text("""
+import overrun_hitch as hitch
+result = hitch.run("8", C=200.0)
+reveal_type(result)
+reveal_type(hitch.run_many({"C": [1.0]}))
+reveal_type(hitch.compare(result))
+reveal_type(hitch.fmu_path("Car", fmi=3))
+reveal_type(hitch.Parameters().C)
+reveal_type(hitch.__version__)
+""")
+    command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path), str(script)]
+    said = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path).stdout
+    revealed = [line.split('"')[1].rpartition(".")[2] for line in said.splitlines() if "Revealed type" in line]
+    assert revealed == ["Dataset", "Dataset", "DataFrame", "Path", "float", "str"], said
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_where_our_fmus_are(name: str, fmi: int) -> None:
+    from overrun_hitch.fmu.files import place  # what fmu_path builds, if it is missing, `make fmu` does as well
+
+    assert place(name, fmi).parts[-2:] == (f"fmi{fmi}", f"{name}.fmu")
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: hitch.fmu_path("Trialer"), "no FMU of ours 'Trialer'; did you mean Trailer or CarTrailer?"),
+        (lambda: hitch.fmu_path("Car", fmi=1), "fmi = 1 is not allowed; allowed: 2 or 3"),
+        (lambda: hitch.run("8", c=200), "no parameter 'c'; did you mean C?"),
+        (lambda: hitch.run("8", "ii"), "figure and case exclude each other"),
+        (lambda: hitch.run("8", C=-1), "C = -1 N.s/m is not allowed"),
+        (lambda: hitch.run(fmu="nowhere.fmu"), "nowhere.fmu"),
+        (lambda: hitch.run_many({"Cc": [1]}), "no parameter or input 'Cc'"),
+        (lambda: hitch.run_many({"C": []}), "C"),
+        (lambda: hitch.run_many({"C": [1]}, outputs=["speed"]), "no variable 'speed'"),
+        (lambda: hitch.run_many({"C": [1]}, C=2), "C is varied and given"),
+        (lambda: hitch.stability("x"), "no case 'x'"),
+        (lambda: hitch.stability(CdA_c=1.0), "CdA_c"),
+        (lambda: hitch.sweep("nowhere.toml", "store"), "nowhere.toml"),
+    ],
+)
+def test_what_a_caller_can_mend(call, message: str) -> None:
+    with pytest.raises(hitch.HitchError) as caught:
+        call()
+    assert message in str(caught.value)
+    assert len(str(caught.value).splitlines()) == 1
+
+
+def test_files_may_be_text(tmp_path: Path) -> None:
+    runs = hitch.sweep({"grid": {"C": [100.0, 500.0]}, "metrics": ["peak_compression"]}, str(tmp_path / "runs.zarr"))
+    alone = hitch.run(fmu=str(hitch.fmu_path()), C=500)
+    assert float(runs["peak_compression"][1]) == pytest.approx(float(alone["compression"].max()), rel=1e-4)
+
+
+def test_many_runs_are_those_of_fmpy_bit_by_bit() -> None:
+    many = hitch.run_many({"C": C, "eps": EPS}, outputs=["compression", "F_hitch"])
+    fmu = str(hitch.fmu_path())
+    description, folder = fmpy.read_model_description(fmu), fmpy.extract(fmu)
+    unit = FMU2Slave(guid=description.guid, unzipDirectory=folder, modelIdentifier="CarTrailer", instanceName="unit")
+    unit.instantiate()
+    for damper in C:
+        for clearance in EPS:
+            unit.reset()
+            result = fmpy.simulate_fmu(
+                folder, validate=False, stop_time=6, output_interval=0.06, relative_tolerance=1e-6,
+                start_values={"C": damper, "eps": clearance, "brake_torque": 1000.0}, output=["compression", "F_hitch"],
+                model_description=description, fmu_instance=unit, record_events=False,
+            )  # fmt: skip
+            for name in ("compression", "F_hitch"):
+                assert many[name].sel(C=damper, eps=clearance).values.tolist() == result[name].tolist()
+    unit.freeInstance()
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_where_it_runs_makes_no_difference(workers: int) -> None:
+    here = hitch.run_many({"C": C, "eps": EPS}, metrics=["growth_rate"])
+    assert here.identical(hitch.run_many({"C": C, "eps": EPS}, metrics=["growth_rate"], workers=workers))
+    assert here.identical(hitch.run_many({"C": C, "eps": EPS}, metrics=["growth_rate"], fmu=str(hitch.fmu_path())))
+
+
+def test_a_run_that_fails_is_told_where_it_is(tmp_path: Path) -> None:
+    told: list[tuple[int, int, int]] = []
+    many = hitch.run_many({"brake_torque": [1000.0, 1e300]}, progress=lambda *state: told.append(state))
+    assert [bool(text) for text in many["message"].values] == [False, True]
+    assert np.isnan(many["compression"].sel(brake_torque=1e300)).all()
+    assert np.isfinite(many["compression"].sel(brake_torque=1000)).all()
+    assert told[0] == (0, 0, 2)
+    assert told[-1] == (2, 1, 2)
