@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from overrun_hitch.parameters import HitchError, Parameters, named
+from overrun_hitch.parameters import HitchError, Parameters, Scenario, named
 from overrun_hitch.scenarios import asked_scenario, name_with
 
 if TYPE_CHECKING:
@@ -115,20 +115,13 @@ def run_many(
     from overrun_hitch.sweeps.planner import planned
     from overrun_hitch.sweeps.spec import SweepSpec
 
-    twice = [name for name in parameters if name in varied]
-    if twice:
-        raise HitchError(f"{twice[0]} is varied and given; allowed: one of them")
-    base = asked_scenario(figure, case, parameters, duration=duration)
+    base = _base(varied, asked_scenario(figure, case, parameters, duration=duration), parameters)
+    grid = {name: [float(value) for value in values] for name, values in varied.items()}
     spec = SweepSpec(
-        name="many runs",
-        grid={name: [float(value) for value in values] for name, values in varied.items()},
-        parameters={name: value for name, value in base.parameters.model_dump().items() if name not in varied},
-        trajectories=list(outputs),
-        metrics=list(metrics),
-        duration=base.duration,
-        communication_step=communication_step,
+        name="many runs", grid=grid, parameters=base, trajectories=list(outputs), metrics=list(metrics),
+        **({} if duration is None else {"duration": duration}), communication_step=communication_step,
         relative_tolerance=relative_tolerance,
-    )
+    )  # fmt: skip
     file = fmu_path() if fmu is None else Path(fmu)
     plan = planned(spec, [file])
     count = (0 if fmu is None else 1) if workers is None else max(workers, 0 if fmu is None else 1)
@@ -136,6 +129,14 @@ def run_many(
         return run_in_memory(plan, file, time_limit, count, progress)
     with terminal.counting("runs", is_kept=False) as told:
         return run_in_memory(plan, file, time_limit, count, told)
+
+
+def _base(varied: Mapping[str, Numbers], scenario: Scenario, given: Mapping[str, float]) -> dict[str, float]:
+    """The parameters that stay the same. HitchError where one does not."""
+    twice = [name for name in given if name in varied]
+    if twice:
+        raise HitchError(f"{twice[0]} is varied and given; allowed: one of them")
+    return {name: value for name, value in scenario.parameters.model_dump().items() if name not in varied}
 
 
 def compare(result: xr.Dataset, *, fmu: str | Path | None = None, time_limit: float = TIME_LIMIT) -> pd.DataFrame:
