@@ -16,6 +16,7 @@ from typing import Annotated, TextIO
 
 import typer
 
+from overrun_hitch.commands.cases import cases
 from overrun_hitch.commands.couple import couple
 from overrun_hitch.commands.crosscheck import crosscheck
 from overrun_hitch.commands.fit import fit
@@ -30,7 +31,7 @@ from overrun_hitch.parameters import HitchError
 
 app = typer.Typer(
     help="Longitudinal oscillations of a car and its overrun-braked trailer (Sharp 1982).",
-    add_completion=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
@@ -101,3 +102,4 @@ app.command()(optimise)
 app.command()(fit)
 app.command()(paper)
 app.command()(report)
+app.command()(cases)
