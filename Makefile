@@ -81,7 +81,7 @@ format: $(READY)  ## format Python and C
 	$(BIN)/clang-format -i $(C_FILES)
 
 lock: $(READY)  ## renew the pinned versions in requirements.txt
-	$(BIN)/uv pip compile --quiet --universal --python-version 3.10 --extra dev --upgrade \
+	$(BIN)/uv pip compile --quiet --universal --python-version 3.10 --all-extras --upgrade \
 	    --no-header --no-annotate pyproject.toml -o requirements.txt
 
 clean:  ## remove what was built; keep .venv

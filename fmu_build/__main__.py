@@ -1,4 +1,4 @@
-"""``python -m fmu_build``: from its first import on it can be interrupted."""
+"""``python -m fmu_build``: from its first import on it can be interrupted, and says what it needs that is not there."""
 
 import sys
 
@@ -11,6 +11,9 @@ def main() -> int:
         return fmu_build()
     except KeyboardInterrupt:
         return 130
+    except ModuleNotFoundError as error:
+        print(f"fmu_build: needs {error.name}: pip install 'overrun-hitch[build]'", file=sys.stderr)
+        return 2
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from overrun_hitch.extras import what_is_missing_told
 from overrun_hitch.parameters import HitchError, Parameters, Scenario, named
 from overrun_hitch.scenarios import asked_scenario, name_with
 
@@ -235,8 +236,9 @@ def sweep(
     spec: a TOML file or its settings (docs/sweep.md). fmus: the files to run where the spec names none. scheduler: the
     address of a Dask scheduler; else `workers` processes on this machine. repair: run again what is damaged.
     """
-    from overrun_hitch.show import terminal
-    from overrun_hitch.sweeps.engine import sweep as run_sweep
+    with what_is_missing_told():
+        from overrun_hitch.show import terminal
+        from overrun_hitch.sweeps.engine import sweep as run_sweep
 
     asked = Path(spec) if isinstance(spec, str) else spec
     with terminal.counting("runs") as told:

@@ -27,6 +27,7 @@ from overrun_hitch.commands.run import run
 from overrun_hitch.commands.sensitivity import sensitivity
 from overrun_hitch.commands.stability import stability
 from overrun_hitch.commands.sweep import sweep
+from overrun_hitch.extras import what_is_missing_told
 from overrun_hitch.parameters import HitchError
 
 app = typer.Typer(
@@ -40,7 +41,8 @@ app = typer.Typer(
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status; bad input costs one line on stderr."""
     try:
-        status = app(args=arguments, prog_name="hitch", standalone_mode=False)
+        with what_is_missing_told():
+            status = app(args=arguments, prog_name="hitch", standalone_mode=False)
         print(end="", flush=True)  # which knows that there may be no standard output at all
     except (HitchError, typer.TyperException) as error:
         message = error.format_message() if isinstance(error, typer.TyperException) else str(error)
