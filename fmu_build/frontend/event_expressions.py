@@ -27,7 +27,8 @@ from .sources import Sources
 from .values import Value, combine, each, elements
 
 COMPARISONS = {"Lt": sympy.Lt, "Le": sympy.Le, "Gt": sympy.Gt, "Ge": sympy.Ge}
-BOOLEAN_OPERATORS = {"And", "Or", "Not", "Eq", "Neq", *RELATIONS}
+LOGIC = {"And": sympy.And, "Or": sympy.Or, "Not": sympy.Not}
+BOOLEAN_OPERATORS = {*LOGIC, "Eq", "Neq", *RELATIONS}
 BOOLEAN_CALLS = {"Edge", "Change", "Initial", "Terminal", "Sample"}
 HALF = sympy.Float(0.5)  # a Boolean value above it is true
 NAMED = {"VarRef", "Index", "FieldAccess", "FunctionCall"}  # expressions whose type their names tell
@@ -80,7 +81,7 @@ class EventReader(ExpressionReader):
         if tag == "VarRef" and (number := self._literal_number(body)) is not None:
             return sympy.Integer(number)
         if self._is_boolean(node):
-            return truth(self.condition(node))
+            return self._elementwise(body) if self._is_logic_of_arrays(node) else truth(self.condition(node))
         if tag == "BuiltinCall" and body["function"] == "Pre":
             return combine(lambda x: symbol(pre(self._variable_name(x, node))), super().read(body["args"][0]))
         if tag == "BuiltinCall" and body["function"] in {*ROUNDING, *TRUNCATION}:
@@ -100,7 +101,7 @@ class EventReader(ExpressionReader):
         tag, body = next(iter(node.items()))
         if tag == "Array":
             return [condition for element in body["elements"] for condition in self.conditions(element)]
-        if tag in NAMED and isinstance(found := self.read(node), np.ndarray):
+        if (tag in NAMED or self._is_logic_of_arrays(node)) and isinstance(found := self.read(node), np.ndarray):
             return [compare(sympy.Gt, element, HALF) for element in elements(found)]
         return [self.condition(node)]
 
@@ -153,6 +154,19 @@ class EventReader(ExpressionReader):
         if tag == "BuiltinCall" and body["function"] == "NoEvent":
             return self._is_boolean(body["args"][0])
         return tag == "BuiltinCall" and body["function"] in BOOLEAN_CALLS
+
+    def _is_logic_of_arrays(self, node: Mapping[str, Any]) -> bool:
+        tag, body = next(iter(node.items()))
+        if tag in {"Binary", "Unary"} and body["op"] in LOGIC:
+            return any(self._is_logic_of_arrays(body[side]) for side in ("lhs", "rhs") if side in body)
+        if tag == "VarRef":
+            return not any("Expr" in s for s in body["subscripts"]) and isinstance(self.read(node), np.ndarray)
+        return tag == "Array"
+
+    def _elementwise(self, body: Mapping[str, Any]) -> Value:
+        """``and``, ``or`` or ``not`` of arrays."""
+        operands = [self.read(body[side]) for side in ("lhs", "rhs") if side in body]
+        return each(lambda *x: truth(LOGIC[body["op"]](*(compare(sympy.Gt, y, HALF) for y in x))), *operands)
 
     def _condition(self, node: Mapping[str, Any]) -> Boolean:
         tag, body = next(iter(node.items()))

@@ -53,8 +53,8 @@ def flatten(path: Path, class_name: str, libraries: Sequence[Path] = ()) -> Flat
     classes = UsedClasses(sources.texts_by_number(), class_name)
     refuse_lost_modifiers(flat, sources, classes)
     flat = rescoped(flat, sources, classes)
-    fixed = fixed_names(flat)
-    flat = with_inner(with_modifiers(flat, fixed), sources)
+    flat = with_inner(with_modifiers(flat, fixed_names(flat)), sources)
+    fixed = fixed_names(flat)  # with outer constants, which have their values now
     declared = declared_names(flat)
     reader = EventReader(sources, declared, flat, fixed)
     kinds = enumeration_types(flat)

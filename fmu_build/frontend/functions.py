@@ -35,7 +35,8 @@ def call(reader: Reader, function: Node, arguments: Sequence[Value]) -> tuple[Va
         return (each(lambda *scalars: call(reader, function, _merged(arguments, over, scalars))[0], *vectors),)
     names: Names = dict(zip((node["name"] for node in inputs), arguments, strict=False))
     with reader.inside_function(names):
-        for node in (*inputs[len(arguments) :], *function["locals"], *function["outputs"]):
+        # A default may read others; those that stand in another order than this one rumoca refuses.
+        for node in (*inputs[len(arguments) :], *function["outputs"], *function["locals"]):
             names[node["name"]] = _initial(reader, node)
         run(reader, function["body"], names)
     return tuple(names[node["name"]] for node in function["outputs"])

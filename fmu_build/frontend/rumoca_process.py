@@ -19,11 +19,13 @@ from typing import Any
 import rumoca
 
 from .algorithms import as_equations, first_section
+from .ranges import REFUSED, with_ranges
 
 Request = Mapping[str, Any]
 
 ALGORITHM = "unsupported model algorithm"
 ALGORITHM_REMEDY = "what is assigned twice, or not in every branch, needs two names; or write the section as a function"
+RESTATED = (ALGORITHM, *REFUSED)  # what rumoca says of that which may be said otherwise
 # What rumoca says, what shows the place in the source, and what to do.
 REMEDIES = (
     (
@@ -55,9 +57,9 @@ def _answer(request: Request, folder: Path) -> str:
             else:
                 model, files = _compiled_alone(entry, request, folder)
         except rumoca.RumocaError as error:
-            if ALGORITHM not in str(error):
+            if not any(said in str(error) for said in RESTATED):
                 raise
-            model, files = _with_equations(entry, request, folder)
+            model, files = _restated(entry, request, folder)
         if request["times"]:
             return json.dumps(_simulated(model, request))
         return f'{{"files": {json.dumps(files)}, "flat": {model.to_json("flat")}}}'
@@ -77,14 +79,14 @@ def _compiled(entry: Path, request: Request) -> tuple[rumoca.Model, list[tuple[i
     return model, model.to_dict("dae")["source_map"]["files"]
 
 
-def _with_equations(entry: Path, request: Request, folder: Path) -> tuple[rumoca.Model, list[tuple[int, str, str]]]:
-    """The same, with algorithm sections as equations where that says the same."""
+def _restated(entry: Path, request: Request, folder: Path) -> tuple[rumoca.Model, list[tuple[int, str, str]]]:
+    """The same, with algorithm sections as equations where that says the same, and all ranges written out."""
     original = entry.parent if (entry.parent / "package.mo").exists() else entry
-    copy = folder / "equations" / original.name
+    copy = folder / "restated" / original.name
     copy.parent.mkdir()
     (shutil.copytree if original.is_dir() else shutil.copyfile)(original, copy)
     for file in copy.rglob("*.mo") if copy.is_dir() else [copy]:
-        file.write_text(as_equations(file.read_text(encoding="utf-8")), encoding="utf-8")
+        file.write_text(as_equations(with_ranges(file.read_text(encoding="utf-8"))), encoding="utf-8")
     try:
         model, files = _compiled(copy / entry.name if copy.is_dir() else copy, request)
     except rumoca.RumocaError as error:

@@ -20,6 +20,16 @@ CASES = {
     "passed on": ("parameter Real", "inner outer parameter Real k", "", "inner parameter Real k = 4", "", (4, 4)),
     "hidden": ("parameter Real", "inner parameter Real k = 3", "", "inner parameter Real k = 4", "", (3, 4)),
     "not mentioned": ("parameter Real", "parameter Real j = 2", "", "inner parameter Real k = 4", "", (4, 4)),
+    "a constant": ("constant Real", "Real j = 1", "", "inner constant Real k = 4", "", (4, 4)),
+    "a constant, hidden": ("constant Real", "inner constant Real k = 3", "", "inner constant Real k = 4", "", (3, 4)),
+    "a constant, passed on": (
+        "constant Real",
+        "inner outer constant Real k",
+        "",
+        "inner constant Real k = 4",
+        "",
+        (4, 4),
+    ),
     "an Integer": ("Integer", "Real j = 1", "", "inner Integer k", "equation\n  k = integer(time) + 2;\n", (2, 2)),
     "an Integer, hidden": (
         "Integer",
@@ -32,7 +42,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("case", sampled(CASES, {"passed on", "an Integer, hidden"}))
+@pytest.mark.parametrize("case", sampled(CASES, {"passed on", "a constant, passed on", "an Integer, hidden"}))
 def test_the_nearest_inner_one_counts(case: str, built: Build) -> None:
     kind, middle, gives, top, gives_top, slopes = CASES[case]
     text = LEAF.format(kind) + MIDDLE.format(middle, gives) + TOP.format(top, gives_top)
