@@ -18,6 +18,7 @@ from .choices import CHOICES
 from .components import Components
 from .functions import call
 from .sources import Sources
+from .standard_tables import is_table, table
 from .subscripts import element
 from .values import ONE, ZERO, Value, array, combine, concatenate, each, field, full
 
@@ -215,8 +216,10 @@ class ExpressionReader:
     def outputs(self, body: Mapping[str, Any]) -> tuple[Value, ...]:
         """All outputs of a function call; a record's constructor gives a record."""
         name = body["name"]["name"]
-        arguments = [self.read(argument) for argument in body["args"]]
         function = self._functions.get(name)
+        if function is not None and is_table(function):
+            return (table(self, function, body["args"]),)
+        arguments = [self.read(argument) for argument in body["args"]]
         if body["is_constructor"] or function is None:
             return (dict(zip(self._constructed(name), arguments, strict=True)),)
         return tuple(self.share(name, value) for value in call(self, function, arguments))
@@ -281,8 +284,12 @@ class ExpressionReader:
                 continue
             if truth == sympy.true:
                 return self._choose(pairs, self.read(value))
-            with self.inside_branch():
-                pairs.append((self.read(value), truth))
+            try:
+                with self.inside_branch():
+                    pairs.append((self.read(value), truth))
+            except BuildError:  # what cannot be computed need not be, if parameters say so
+                if self.components.structure(truth) != sympy.false:
+                    raise
         if not pairs:
             return self.read(body["else_branch"])
         with self.inside_branch():

@@ -2,7 +2,7 @@
 
 What a class is made of stands by name in its text, or in that of a class that it is made of. So a class is needed if
 its name occurs in one that is needed, and the package that it lies in is needed too. Names are not looked up, any one
-counts in every package: no scope, import, alias, base class or redeclaration has to be understood, and what is found may
+counts in every package: no scope, import, alias, base class or redeclaration need be understood, and what is found may
 be too much, never too little (as long as files are called like their classes; Modelica 3.6, section 13.4).
 """
 
