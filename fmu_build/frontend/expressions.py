@@ -93,7 +93,11 @@ class ExpressionReader:
         return combine(lambda scalar: self._share(name, scalar), value) if self._shares else value
 
     def _share(self, name: str, scalar: sympy.Expr | None) -> sympy.Expr | None:
-        if scalar is None or not _is_large(scalar):
+        return scalar if scalar is None or not _is_large(scalar) else self.named(name, scalar)
+
+    def named(self, name: str, scalar: sympy.Expr) -> sympy.Expr:
+        """A variable that equals an expression, named after ``name``; the expression where there can be none."""
+        if not self._shares or not scalar.args:
             return scalar
         variable = shared_name(name, len(self.shared))
         self.shared.append(Assignment(variable, scalar, self._origin))

@@ -105,7 +105,10 @@ class Table:
         if len(self.points) == 1:
             return pieces[0](u)
         if self.extrapolation == PERIODIC:
-            return self._inside(pieces, range(len(pieces)), u - self._cycles(u, 0.0) * self._period)
+            u = u - self._cycles(u, 0.0) * self._period
+        u = self.reader.named("place", u)
+        if self.extrapolation == PERIODIC:
+            return self._inside(pieces, range(len(pieces)), u)
         first, last = map(sympy.Float, (self.points[0], self.points[-1]))
         left, right = (self._outside(pieces, column, u, at_right=side) for side in (False, True))
         inside = self._inside(pieces, range(len(pieces)), u)
@@ -151,6 +154,8 @@ class Table:
         if self.extrapolation == PERIODIC:
             cycles = self._cycles(event, self._margin - min(b - a for a, b in itertools.pairwise(events)) / 2)
             event, time = event - cycles * self._period, time - cycles * self._period
+        event, time = self.reader.named("event", event), self.reader.named("place", time)
+        if self.extrapolation == PERIODIC:
             return _choose(middles[1:], [self._inside(pieces, group, time) for group in groups], event)
         inside = [self._inside(pieces, group, time) for group in groups]
         left, right = (self._outside(pieces, column, time, at_right=side) for side in (False, True))
