@@ -14,6 +14,7 @@ from .components import element_names, spread
 from .event_expressions import Declared, EventReader, enumeration_types
 from .expressions import unwrap
 from .sources import readable
+from .standard_tables import is_table
 from .values import elements
 
 Node = dict[str, Any]
@@ -21,14 +22,21 @@ STATE_SELECT = {"Never": -2, "Avoid": -1, "Default": 0, "Prefer": 1, "Always": 2
 
 
 def fixed_names(flat: Node) -> frozenset[str]:
-    """Names that are put in as values: constants, and parameters that rumoca has already put in somewhere."""
+    """Names that are put in as values: constants, parameters that rumoca has already put in somewhere, and tables."""
     chosen = {".".join(reference) for s in flat.get("parameter_branch_selections", ()) for reference in s["references"]}
     return frozenset(
         name
         for name, node in flat["variables"].items()
         if node["binding"] is not None and flat["variable_type_names"].get(name) != "String"
-        if unwrap(node["variability"]) == "Constant" or (unwrap(node["variability"]) == "Parameter" and name in chosen)
+        if unwrap(node["variability"]) == "Constant"
+        or (unwrap(node["variability"]) == "Parameter" and name in chosen)
+        or _is_table(node["binding"], flat)
     )
+
+
+def _is_table(binding: Node, flat: Node) -> bool:
+    call = binding.get("FunctionCall")
+    return call is not None and is_table(flat["functions"].get(call["name"]["name"]))
 
 
 def is_text(node: Node, flat: Node) -> bool:

@@ -18,6 +18,7 @@ from .choices import CHOICES
 from .components import Components
 from .functions import call
 from .sources import Sources
+from .standard_tables import is_table, table
 from .subscripts import element
 from .values import ONE, ZERO, Value, array, combine, concatenate, each, field, full
 
@@ -92,7 +93,11 @@ class ExpressionReader:
         return combine(lambda scalar: self._share(name, scalar), value) if self._shares else value
 
     def _share(self, name: str, scalar: sympy.Expr | None) -> sympy.Expr | None:
-        if scalar is None or not _is_large(scalar):
+        return scalar if scalar is None or not _is_large(scalar) else self.named(name, scalar)
+
+    def named(self, name: str, scalar: sympy.Expr) -> sympy.Expr:
+        """A variable that equals an expression, named after ``name``; the expression where there can be none."""
+        if not self._shares or not scalar.args:
             return scalar
         variable = shared_name(name, len(self.shared))
         self.shared.append(Assignment(variable, scalar, self._origin))
@@ -215,8 +220,10 @@ class ExpressionReader:
     def outputs(self, body: Mapping[str, Any]) -> tuple[Value, ...]:
         """All outputs of a function call; a record's constructor gives a record."""
         name = body["name"]["name"]
-        arguments = [self.read(argument) for argument in body["args"]]
         function = self._functions.get(name)
+        if function is not None and is_table(function):
+            return (table(self, function, body["args"]),)
+        arguments = [self.read(argument) for argument in body["args"]]
         if body["is_constructor"] or function is None:
             return (dict(zip(self._constructed(name), arguments, strict=True)),)
         return tuple(self.share(name, value) for value in call(self, function, arguments))
@@ -281,8 +288,12 @@ class ExpressionReader:
                 continue
             if truth == sympy.true:
                 return self._choose(pairs, self.read(value))
-            with self.inside_branch():
-                pairs.append((self.read(value), truth))
+            try:
+                with self.inside_branch():
+                    pairs.append((self.read(value), truth))
+            except BuildError:  # what cannot be computed need not be, if parameters say so
+                if self.components.structure(truth) != sympy.false:
+                    raise
         if not pairs:
             return self.read(body["else_branch"])
         with self.inside_branch():

@@ -20,7 +20,7 @@ from typing import Any
 from ..errors import BuildError
 from .sources import Sources
 
-TIME_LIMIT = 600.0  # s; the whole Modelica Standard Library takes rumoca 25
+TIME_LIMIT = 600.0  # s; all of the Modelica Standard Library takes rumoca 25
 # `redeclare model extends Inner`, where rumoca overflows its stack.
 _CLASS_EXTENDS = re.compile(r"^[^\"/]*\b(?:model|block|class|record|connector|package|function|type)\s+extends\b")
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
 from typing import Any, Protocol
 
+import sympy
 from sympy.logic.boolalg import Boolean
 
 from .components import Components
@@ -28,6 +29,9 @@ class Reader(Protocol):
 
     def share(self, name: str, value: Value) -> Value:
         """The value, of which large expressions are replaced by variables that equal them."""
+
+    def named(self, name: str, scalar: sympy.Expr) -> sympy.Expr:
+        """A variable that equals an expression; the expression where there can be none."""
 
     def shape(self, sizes: Sequence[Mapping[str, Any]]) -> list[int]:
         """The sizes of a declaration as numbers."""

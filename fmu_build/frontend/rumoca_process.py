@@ -2,15 +2,15 @@
 
 Reads request.json in the folder, writes answer.json: what rumoca makes of a class, or why it makes nothing of it. Two
 of its habits are handled here: many of its errors carry no place, so we look the offending name up in the sources; and
-it reads every .mo file beside the one it is given, as Modelica's directory rules allow.
+it reads all that it could need, beside the file that it is given and in libraries, so we show it what the class needs.
 """
 
 from __future__ import annotations
 
 import difflib
 import json
+import os
 import re
-import shutil
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -20,9 +20,12 @@ import rumoca
 
 from .algorithms import as_equations, first_section
 from .ranges import REFUSED, with_ranges
+from .source_tree import SourceTree, copy_of_needed, whole_tree
 
 Request = Mapping[str, Any]
+Files = list[tuple[int, str, str]]  # number, name and text of each
 
+MISSING = re.compile("unresolved|not found|does not exist|resolve/parse failed")
 ALGORITHM = "unsupported model algorithm"
 ALGORITHM_REMEDY = "what is assigned twice, or not in every branch, needs two names; or write the section as a function"
 RESTATED = (ALGORITHM, *REFUSED)  # what rumoca says of that which may be said otherwise
@@ -51,15 +54,7 @@ def main(folder: Path) -> None:
 def _answer(request: Request, folder: Path) -> str:
     entry, class_name = Path(request["entry"]), request["class_name"]
     try:
-        try:
-            if (entry.parent / "package.mo").exists():
-                model, files = _compiled(entry, request)
-            else:
-                model, files = _compiled_alone(entry, request, folder)
-        except rumoca.RumocaError as error:
-            if not any(said in str(error) for said in RESTATED):
-                raise
-            model, files = _restated(entry, request, folder)
+        model, files = _loaded(entry, request, folder)
         if request["times"]:
             return json.dumps(_simulated(model, request))
         return f'{{"files": {json.dumps(files)}, "flat": {model.to_json("flat")}}}'
@@ -73,42 +68,51 @@ def _answer(request: Request, folder: Path) -> str:
         return json.dumps({"error": f"{entry}: {class_name}: rumoca failed in it: {error}"})
 
 
-def _compiled(entry: Path, request: Request) -> tuple[rumoca.Model, list[tuple[int, str, str]]]:
-    """The compiled class, and number, name and text of each file that was read."""
-    model = rumoca.Session(roots=request["libraries"]).load(str(entry), model=request["class_name"])
-    return model, model.to_dict("dae")["source_map"]["files"]
+def _loaded(entry: Path, request: Request, folder: Path) -> tuple[rumoca.Model, Files]:
+    """The compiled class, and the files that were read: those that it needs; all, if that does not do."""
+    messages: list[str] = []
+    for tree in _trees(entry, request, folder):
+        try:
+            return _compiled(tree, request["class_name"])
+        except rumoca.RumocaError as error:
+            messages.append(tree.original(str(error)))
+            kind = type(error)
+            if not MISSING.search(messages[-1]):
+                break
+    raise kind(messages[0] if "Duplicate class" in messages[-1] else messages[-1])
 
 
-def _restated(entry: Path, request: Request, folder: Path) -> tuple[rumoca.Model, list[tuple[int, str, str]]]:
-    """The same, with algorithm sections as equations where that says the same, and all ranges written out."""
-    original = entry.parent if (entry.parent / "package.mo").exists() else entry
-    copy = folder / "restated" / original.name
-    copy.parent.mkdir()
-    (shutil.copytree if original.is_dir() else shutil.copyfile)(original, copy)
-    for file in copy.rglob("*.mo") if copy.is_dir() else [copy]:
+def _trees(entry: Path, request: Request, folder: Path) -> Iterator[SourceTree]:
+    """Where to look, one after another. A file is tried by itself first: among those beside it, which rumoca reads as
+    well, there may be unrelated ones with classes of the same name."""
+    whole, surroundings = whole_tree(entry, request["libraries"]), dict(os.environ)
+    os.environ["XDG_CACHE_HOME"] = str(folder / "cache")  # where rumoca keeps what it has parsed, by names of files
+    yield copy_of_needed(whole, request["class_name"], folder / "needed")
+    if not (entry.parent / "package.mo").exists():
+        yield copy_of_needed(whole, request["class_name"], folder / "beside", beside=True)
+    os.environ.pop("XDG_CACHE_HOME")
+    os.environ.update(surroundings)
+    yield whole
+
+
+def _compiled(tree: SourceTree, class_name: str) -> tuple[rumoca.Model, Files]:
+    os.environ["MODELICAPATH"] = os.pathsep.join(map(str, tree.modelica_path))
+    try:
+        model = rumoca.Session(roots=[*map(str, tree.libraries)]).load(str(tree.entry), model=class_name)
+    except rumoca.RumocaError as error:
+        if not tree.written or not any(said in str(error) for said in RESTATED):
+            raise
+        model = _restated(tree, class_name)
+    return model, [
+        (number, tree.original(name), text) for number, name, text in model.to_dict("dae")["source_map"]["files"]
+    ]
+
+
+def _restated(tree: SourceTree, class_name: str) -> rumoca.Model:
+    """The compiled class, with algorithm sections as equations where that says the same, and all ranges written out."""
+    for file in tree.written:
         file.write_text(as_equations(with_ranges(file.read_text(encoding="utf-8"))), encoding="utf-8")
-    try:
-        model, files = _compiled(copy / entry.name if copy.is_dir() else copy, request)
-    except rumoca.RumocaError as error:
-        raise type(error)(str(error).replace(str(copy), str(original))) from None
-    return model, [(number, name.replace(str(copy), str(original)), text) for number, name, text in files]
-
-
-def _compiled_alone(entry: Path, request: Request, folder: Path) -> tuple[rumoca.Model, list[tuple[int, str, str]]]:
-    """The same of a file by itself, if that will do: among the files beside it, which rumoca reads as well, there may
-    be unrelated ones with classes of the same name."""
-    copy = folder / "alone" / entry.name
-    copy.parent.mkdir()
-    shutil.copyfile(entry, copy)
-    try:
-        model, files = _compiled(copy, request)
-        return model, [(number, name.replace(str(copy), str(entry)), text) for number, name, text in files]
-    except rumoca.RumocaError as error:
-        alone = str(error).replace(str(copy), str(entry))
-    try:
-        return _compiled(entry, request)
-    except rumoca.RumocaError as error:
-        raise type(error)(alone if "Duplicate class" in str(error) else str(error)) from None
+    return rumoca.Session(roots=[*map(str, tree.libraries)]).load(str(tree.entry), model=class_name)
 
 
 def _simulated(model: rumoca.Model, request: Request) -> dict[str, Any]:
