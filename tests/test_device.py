@@ -115,11 +115,13 @@ def test_a_lag_that_is_set_during_a_run_begins_without_a_jump(unit: HitchUnit) -
 
 
 @pytest.mark.parametrize("mu", [1.0, 0.3, 0.1])
-@pytest.mark.parametrize("mu_slide", [0.6, 0.75, 0.9])
-def test_locked_wheels_brake_with_their_share_of_the_peak(unit: HitchUnit, mu: float, mu_slide: float) -> None:
-    """At every speed down to rest; so the way is v^2/(2 mu_slide mu g)."""
+@pytest.mark.parametrize(("mu_slide", "sigma"), [(0.6, 0.0), (0.75, 0.0), (0.9, 0.0), (0.75, 0.4), (0.6, 1e-3)])
+def test_locked_wheels_brake_with_their_share_of_the_peak(
+    unit: HitchUnit, mu: float, mu_slide: float, sigma: float
+) -> None:
+    """At every speed down to rest; so the way is v^2/(2 mu_slide mu g). Also of tyres that lag, which do not rebound."""
     loose = {"k": 0.0, "k_t": 0.0, "C": 0.0, "r": 0.0}
-    p = CASES["ii"].changed({**loose, "mu": mu, "mu_slide": mu_slide, "V_0": 20.0})
+    p = CASES["ii"].changed({**loose, "mu": mu, "mu_slide": mu_slide, "sigma": sigma, "V_0": 20.0})
     unit.start(p, {"brake_torque": 8000.0 * mu}, 1e-8)
     h, names = 0.005 / mu, ["v_car", "a_car", "car.wheel.omega", "car.body.x"]
     rows = []
