@@ -8,14 +8,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from overrun_hitch.commands.run import asked_scenario
+from overrun_hitch.comparison.theory import compare
 from overrun_hitch.experiments.free_vibration import measured_mode
+from overrun_hitch.experiments.step_brake import brake, car_alone
 from overrun_hitch.fmu.opening import opened_unit
+from overrun_hitch.fmu.settings import Settings
 from overrun_hitch.fmu.unit import HitchUnit
 from overrun_hitch.measure.envelope import measured_envelope
 from overrun_hitch.parameters import CASES, Parameters
 from overrun_hitch.theory.dry_friction import onset_amplitude
 from overrun_hitch.theory.linear import shunting_mode
-from overrun_hitch.theory.steady import braking_at
+from overrun_hitch.theory.steady import braking_at, steady
 from overrun_hitch.theory.working_point import g_n
 from tests.energy import G_N
 
@@ -28,9 +32,21 @@ def unit(car_trailer_fmu: Path) -> Iterator[HitchUnit]:
         yield opened
 
 
-@pytest.mark.parametrize(
-    ("tau_b", "C", "V"), [(0.005, 250.0, 40.0), (0.02, 500.0, 40.0), (0.02, 900.0, 10.0), (0.05, 1500.0, 40.0)]
-)
+POINTS = [(0.005, 250.0, 40.0), (0.02, 500.0, 40.0), (0.02, 900.0, 10.0), (0.05, 1500.0, 40.0)]  # s, N.s/m, m/s
+
+
+@pytest.mark.parametrize(("tau_b", "C", "V"), POINTS)
+def test_a_run_grows_as_theory_says_along_its_falling_speed(unit: HitchUnit, tau_b: float, C: float, V: float) -> None:
+    """What `hitch run` says; from a tenth off the steady compression, so that the drawbar stays in."""
+    changes = {"tau_b": tau_b, "C": C, "V_0": V, "compression_start": 1.1 * steady(CASES["ii"], 1000.0).D}
+    scenario = asked_scenario(None, "ii", changes)
+    growth = compare(brake(unit, scenario, Settings()), brake(unit, car_alone(scenario), Settings()))[0]
+    print(f"{1e3 * tau_b:g} ms, C = {C:g}, from {V:g} m/s: FMU {growth.found:.5f}, theory {growth.expected:.5f} 1/s")
+    assert growth.verdict == "agrees"
+    assert growth.found == pytest.approx(growth.expected, abs=1e-3)
+
+
+@pytest.mark.parametrize(("tau_b", "C", "V"), POINTS)
 def test_the_fmu_grows_as_theory_says(unit: HitchUnit, tau_b: float, C: float, V: float) -> None:
     p = CASES["ii"].changed({"tau_b": tau_b, "C": C})
     found, theory = measured_mode(unit, p, V), shunting_mode(p, V)
@@ -99,11 +115,13 @@ def test_a_lag_that_is_set_during_a_run_begins_without_a_jump(unit: HitchUnit) -
 
 
 @pytest.mark.parametrize("mu", [1.0, 0.3, 0.1])
-@pytest.mark.parametrize("mu_slide", [0.6, 0.75, 0.9])
-def test_locked_wheels_brake_with_their_share_of_the_peak(unit: HitchUnit, mu: float, mu_slide: float) -> None:
-    """At every speed down to rest; so the way is v^2/(2 mu_slide mu g)."""
+@pytest.mark.parametrize(("mu_slide", "sigma"), [(0.6, 0.0), (0.75, 0.0), (0.9, 0.0), (0.75, 0.4), (0.6, 1e-3)])
+def test_locked_wheels_brake_with_their_share_of_the_peak(
+    unit: HitchUnit, mu: float, mu_slide: float, sigma: float
+) -> None:
+    """At every speed down to rest; so the way is v^2/(2 mu_slide mu g). Also of tyres that lag, which do not rebound."""
     loose = {"k": 0.0, "k_t": 0.0, "C": 0.0, "r": 0.0}
-    p = CASES["ii"].changed({**loose, "mu": mu, "mu_slide": mu_slide, "V_0": 20.0})
+    p = CASES["ii"].changed({**loose, "mu": mu, "mu_slide": mu_slide, "sigma": sigma, "V_0": 20.0})
     unit.start(p, {"brake_torque": 8000.0 * mu}, 1e-8)
     h, names = 0.005 / mu, ["v_car", "a_car", "car.wheel.omega", "car.body.x"]
     rows = []

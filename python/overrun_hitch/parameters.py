@@ -214,12 +214,15 @@ class Parameters(Quantities):
         0.0, "m", "drawbar compression at the start", "trailer", "outside", ge=-WIDEST, le=WIDEST
     )
 
+    def __init__(self, **values: Any) -> None:
+        super().__init__(**values)
+        if self.F_0 > 0.0 and self.k_t == 0.0:
+            raise HitchError(f"F_0 = {self.F_0:g} N is not allowed with k_t = 0 N/m: the frame must hold the threshold")
+
     @property
     def gives_from(self) -> float:
         """Compression (m) from which the spring gives and the trailer is braked: clearance, and F_0 on the frame."""
-        if self.F_0 == 0.0:
-            return self.eps
-        return self.eps + self.F_0 / self.k_t if self.k_t > 0.0 else math.inf
+        return self.eps + self.F_0 / self.k_t if self.F_0 > 0.0 else self.eps
 
     @property
     def linear_until(self) -> float:
@@ -230,10 +233,9 @@ class Parameters(Quantities):
         """The parameters that have another value than the default and of which theory makes one of `values`."""
         return tuple(name for name in self.having("theory", *values) if getattr(self, name) != getattr(DATUM, name))
 
-    @property
-    def known_to_theory(self) -> Parameters:
-        """A copy in which what linear theory does not know has its default."""
-        return self.changed({name: getattr(DATUM, name) for name in self.off_default("neutral")})
+    def at_default(self, *values: InTheory) -> Parameters:
+        """A copy in which the parameters of which theory makes one of `values` have their defaults."""
+        return self.changed({name: getattr(DATUM, name) for name in self.off_default(*values)})
 
     def changed(self, changes: Mapping[str, Any]) -> Parameters:
         """A copy with `changes` (name: value); HitchError for an unknown name or a value out of range."""

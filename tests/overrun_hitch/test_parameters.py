@@ -71,7 +71,7 @@ def test_what_theory_takes_is_not_what_it_does_not_know() -> None:
     assert {"CdA_c", "C_rr"} <= set(Parameters.having("theory", "neutral"))
     odd = DATUM.changed({"CdA_c": 0.7, "rebound": 3.0, "M_t": 400.0})
     assert odd.off_default("neutral", "approximate") == ("rebound", "CdA_c")
-    assert odd.known_to_theory == odd.changed({"CdA_c": 0.0})
+    assert odd.at_default("neutral") == odd.changed({"CdA_c": 0.0})
 
 
 def test_the_stiffness_is_k_up_to_x_2_whatever_x_3() -> None:

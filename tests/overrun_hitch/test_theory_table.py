@@ -10,7 +10,7 @@ from typing import get_args
 import numpy as np
 import pytest
 
-from overrun_hitch.experiments.free_vibration import DECELERATION, measured_decay, measured_mode
+from overrun_hitch.experiments.free_vibration import DECELERATION, measured_vibration
 from overrun_hitch.experiments.linearisation import at_steady_braking, at_zero_slip
 from overrun_hitch.fmu.opening import opened_unit
 from overrun_hitch.fmu.unit import HitchUnit
@@ -54,7 +54,7 @@ def both(unit: HitchUnit, name: str, p: Parameters) -> tuple[complex, complex]:
         return shunting(linearisation.fmu), complex(shunting_mode(point.linear, linearisation.V).eigenvalue)
     else:
         point = working_point(p, 0.0 if p.F_0 > 0.0 else DECELERATION)
-        found = measured_decay(unit, p, V) if name == "rebound" else measured_mode(unit, p, V).eigenvalue
+        found = measured_vibration(unit, p, V).eigenvalue
     return found, complex(shunting_mode(point.linear, V).eigenvalue)
 
 

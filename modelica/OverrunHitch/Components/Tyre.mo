@@ -51,9 +51,9 @@ equation
   w = noEvent(if v_abs < v_low then 1 - y^3*(4 - 3*y) else 0);
   F_max = mu*M*g_z;
   v_slide = noEvent(abs(v_slip)/s_slide);
-  v_fade = noEvent(if v_abs < v_low then max(v_abs*y*(2 - y) + w*v_slide, (1 - w)*(1 - lag)*v_slide) else max(v_abs, (1 - lag)*v_slide));
+  v_fade = noEvent(if v_abs < v_low then max(v_abs*y*(2 - y) + w*v_slide, max(1 - w, lag)*v_slide) else max(v_abs, v_slide));
   der(u) = v_slip - v_fade*u/l;
-  slip_roll = (1 - lag)*noEvent(if v_abs < v_least then 1/v_least else 1/v_abs)*v_slip + lag*u/l "Without lag the paper's equations 7 and 8";
+  slip_roll = noEvent(if v_abs < v_least then 1/v_least else 1/v_abs)*(v_slip - lag*der(u)) "Without lag the paper's equations 7 and 8";
   slip_rest = noEvent(if v_abs < v_low then u/l + d*der(u) else 0);
   slip = noEvent(if v_abs < v_low then (1 - w)*slip_roll + w*slip_rest else slip_roll);
   X = C_k*slip_roll/(C_x*F_max);
@@ -78,14 +78,16 @@ falls as H. B. Pacejka's magic formula tells, whose slope at zero slip is <code>
 where the wheel is locked (slip 1): that determines the curvature <code>E_x</code>, on a level road. With the default
 <code>mu</code> the limit is out of reach and the force that of the paper.</p>
 <p>With a relaxation length <code>sigma</code> the force follows the slip over that distance, as that of a tyre does whose
-deflection has to build up; the paper has none (<code>sigma = 0</code>).</p>
+deflection has to build up; the paper has none (<code>sigma = 0</code>). Sliding limits the deflection: with a slip beyond
+<code>s_slide</code> it stays that of sliding, and the force follows the slip over a distance that is shorter in proportion.</p>
 <p>At rest there is no slip to speak of: a tyre that stands is a spring of the stiffness <code>C_k/l</code>, which holds a
 vehicle on a slope without creeping. Its deflection <code>u</code> is that of a tyre with the relaxation length
 <code>l</code> (<code>sigma</code>, or 0.3 m if that is 0); it fades over that distance when the tyre rolls, not when it stands, and sliding limits it to where its
 force is that of sliding, <code>mu_slide</code> of the peak: more does not hold a wheel that has stopped. From <code>v_low</code> down it takes over; above, it takes no part. The damping of the tyre that stands
 is artificial, as in Pacejka's own model for low speeds, and disappears at <code>v_low</code> too.</p>
-<p>Rejected: one magic formula of a weighted slip; a locked wheel then passes the peak as the vehicle comes to rest. With a
-relaxation length it still does: its slip is the deflection.</p>
+<p>Rejected: one magic formula of a weighted slip; a locked wheel then passes the peak as the vehicle comes to rest. And a
+deflection that grows with the slip without limit: that of a locked wheel would be as long as <code>sigma</code>, and throw the
+vehicle back when it has stopped.</p>
 <p>Rejected too: a slip over a speed that is kept from zero. It is regular as well, but it creeps on a slope.</p>
 <p>The tyre pulls the body back with <code>F</code> and spins the wheel forward with <code>R F</code>. Its rolling resistance,
 <code>C_rr</code> times the load, is a torque against the turning of the wheel: friction, which <code>Wheel</code> applies as it

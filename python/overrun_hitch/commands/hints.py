@@ -30,7 +30,10 @@ def hint_sweep(plan: Plan) -> None:
     lines: dict[str, None] = {}
     for row in sorted(rows):
         values = {**plan.job.fixed, **{name: float(column[row]) for name, column in plan.columns.items()}}
-        parameters = Parameters(**{name: values[name] for name in Parameters.model_fields})
+        try:
+            parameters = Parameters(**{name: values[name] for name in Parameters.model_fields})
+        except HitchError:  # what does not go together: that run's own message says so
+            continue
         lines |= dict.fromkeys(hints(parameters, values.get("brake_torque", 0.0)))  # of profiles nothing is said
     for line in lines:
         print(f"hint: {line}", file=sys.stderr)

@@ -94,7 +94,7 @@ def _oscillation(part: _Run) -> Oscillation | NoOscillation:
 
 def _settled_part(run: xr.Dataset) -> _Run:
     p = scenario_of(run).parameters
-    known = p.known_to_theory
+    known = p.at_default("neutral")
     time, compression = values(run, "time"), values(run, "compression")
     rate = values(run, "v_trailer") - values(run, "v_car")
     entry, stays, sentence = compressed_from(time, compression, rate, p.gives_from, p.linear_until)

@@ -13,15 +13,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from overrun_hitch.coupling.pair import SCHEMES, Coupled, GuestPair, Pair, Scheme
-from overrun_hitch.experiments.free_vibration import DECELERATION, SHARE, MeasuredMode, measured_mode
+from overrun_hitch.experiments.free_vibration import (
+    WHEELS_SETTLED,
+    Measured,
+    measured_in,
+    measured_vibration,
+    vibration,
+)
 from overrun_hitch.fmu.messages import StepRefused
 from overrun_hitch.fmu.unit import AnyUnit
-from overrun_hitch.measure.oscillation import NoOscillation, measure
-from overrun_hitch.parameters import HitchError, Parameters
-from overrun_hitch.theory.steady import steady
+from overrun_hitch.measure.oscillation import NoOscillation
+from overrun_hitch.parameters import HitchError, Parameters, Scenario
 
-DURATION = 6.0  # s
-ONSET = 0.1  # s: the wheels have taken up the brake torque
+LONGEST = 6.0  # s
 RELATIVE_TOLERANCE = 1e-9
 SHORTEST_STEP = 1e-5  # s: half a minute for each scheme
 LONGEST_STEP = 0.1  # s: longer ones see fewer than six points of an oscillation of 1.6 Hz
@@ -46,7 +50,7 @@ class CouplingStudy:
 
     parameters: Parameters
     V: float  # m/s
-    whole: MeasuredMode
+    whole: Measured
     points: tuple[Point, ...]
 
     def of(self, scheme: Scheme) -> list[Point]:
@@ -63,13 +67,13 @@ def study_coupling(
     progress: Callable[[str], object] = lambda _: None,
     schemes: Sequence[Scheme] = SCHEMES,
 ) -> CouplingStudy:
-    """Run every scheme at every step H (s). HitchError where there is nothing to measure: see measured_mode."""
-    mode = measured_mode(whole, parameters, V)
+    """Run every scheme at every step H (s). HitchError where there is nothing to measure: see measured_vibration."""
+    measured = measured_vibration(whole, parameters, V)
     points = []
     for H in steps:
         progress(f"steps of {1000.0 * H:g} ms")
         points += [_point(pair, scheme, parameters, V, H) for scheme in schemes]
-    return CouplingStudy(parameters, V, mode, tuple(points))
+    return CouplingStudy(parameters, V, measured, tuple(points))
 
 
 def check_step(H: float) -> None:
@@ -96,32 +100,28 @@ def rise_per_second(scheme: Scheme, parameters: Parameters) -> float:
     return scheme.lateness * parameters.k / (2.0 * (parameters.M_c + parameters.I_c / parameters.R_c**2))
 
 
-def gentle_braking(parameters: Parameters, V: float) -> tuple[Parameters, float]:
-    """The start of the manoeuvre, and its brake torque in N.m."""
-    torque = DECELERATION / abs(steady(parameters, 1.0).A)
-    braking = steady(parameters, torque)
-    compression = parameters.eps + (braking.D - parameters.eps) * (1.0 + SHARE)
-    return parameters.changed({"V_0": V - 0.5 * DURATION * braking.A, "compression_start": compression}), torque
+def gentle_braking(parameters: Parameters, V: float) -> Scenario:
+    """The manoeuvre, in all no longer than LONGEST."""
+    return vibration(parameters, V, LONGEST - WHEELS_SETTLED)
 
 
 def _point(pair: Pair | GuestPair, scheme: Scheme, parameters: Parameters, V: float, H: float) -> Point:
     check_step(H)
-    start, torque = gentle_braking(parameters, V)
+    braking = gentle_braking(parameters, V)
     expected = rise_per_second(scheme, parameters) * H
     try:
-        run = pair.run(scheme, start, torque, DURATION, H, RELATIVE_TOLERANCE)
+        run = pair.run(scheme, braking.parameters, braking.brake_torque, braking.duration, H, RELATIVE_TOLERANCE)
     except StepRefused:  # the coupling has let the motion grow until the model ends, or does not converge
         return Point(scheme, H, math.nan, math.nan, math.nan, math.nan, expected)
-    growth, frequency = _oscillation(run)
+    growth, frequency = _oscillation(parameters, V, run)
     created, told = float(run.created[-1]), float(run.values["coupling_energy"][-1])
     return Point(scheme, H, growth, frequency, created, told, expected)
 
 
-def _oscillation(run: Coupled) -> tuple[float, float]:
+def _oscillation(parameters: Parameters, V: float, run: Coupled) -> tuple[float, float]:
     """Growth rate (1/s) and frequency (Hz) of the compression."""
-    seen = run.time >= ONSET
-    compression = run.values["compression"][seen]
+    compression = run.values["compression"]
     if not np.isfinite(compression).all():
         return math.nan, math.nan
-    found = measure(run.time[seen], compression)
+    found = measured_in(parameters, V, run.time, compression)
     return (math.nan, math.nan) if isinstance(found, NoOscillation) else (found.growth_rate, found.frequency)

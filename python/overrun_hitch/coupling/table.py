@@ -9,6 +9,7 @@ from typing import Any
 
 from overrun_hitch.coupling.pair import SCHEMES, Scheme
 from overrun_hitch.coupling.study import CouplingStudy, Point, longest_stable_step
+from overrun_hitch.experiments.free_vibration import left_out
 from overrun_hitch.show.table import Column, Numbers, Row, console, show_rows, show_written
 
 MILLI = 1000.0
@@ -19,6 +20,8 @@ def show(name: str, study: CouplingStudy, paths: Sequence[Path]) -> None:
     out = console()
     whole = study.whole
     out.print(f"{name}, C = {study.parameters.C:g} N.s/m, at {study.V:g} m/s")
+    for sentence in left_out(study.parameters):
+        out.print(sentence, soft_wrap=True)
     out.print(f"in one piece: growth rate {whole.growth_rate:.5f} 1/s, frequency {whole.frequency:.5f} Hz")
     out.print("error of the growth rate in 1/s, by communication step:")
     steps = sorted({point.H for point in study.points})

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq, minimize_scalar
 
-from overrun_hitch.experiments.free_vibration import measured_decay, measured_mode
+from overrun_hitch.experiments.free_vibration import measured_vibration
 from overrun_hitch.experiments.step_brake import brake
 from overrun_hitch.fmu.settings import Settings
 from overrun_hitch.fmu.unit import AnyUnit
@@ -141,19 +141,12 @@ def least_damping(parameters: Parameters, wanted: Wanted) -> tuple[float, float]
 
 
 def _confirmed(unit: AnyUnit, parameters: Parameters, V: float) -> tuple[Judged, float]:
-    """Theory and the FMU, and what the fit leaves.
-
-    By the logarithmic decrement where a damper of two rates makes the motion no exponential.
-    """
+    """Theory and the FMU, and what the fit leaves."""
     theory = float(gentle_mode(parameters, V).damping_ratio)
-    if parameters.rebound != 1.0:
-        eigenvalue, residual = measured_decay(unit, parameters, V), math.nan
-    else:
-        mode = measured_mode(unit, parameters, V)
-        eigenvalue, residual = mode.eigenvalue, mode.residual
-    found = -eigenvalue.real / abs(eigenvalue)
+    measured = measured_vibration(unit, parameters, V)
+    found = -measured.eigenvalue.real / abs(measured.eigenvalue)
     allowed = (ALLOWED + min(rebound_error(parameters, V), REBOUND_REACH)) * theory
-    return Judged(f"damping ratio at {V:.4g} m/s", "1", theory, found, allowed), residual
+    return Judged(f"damping ratio at {V:.4g} m/s", "1", theory, found, allowed), measured.residual
 
 
 def _costs(unit: AnyUnit, before: Parameters, after: Parameters, V: float) -> dict[str, tuple[float, float]]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from overrun_hitch.design.optimise import Optimum, Wanted
+from overrun_hitch.experiments.free_vibration import left_out
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.measure.metrics import METRICS
 from overrun_hitch.parameters import Parameters, with_unit
@@ -32,7 +33,7 @@ def show(title: str, wanted: Wanted, found: Optimum) -> None:
     if math.isfinite(found.residual):
         out.print(f"the fits of the FMU's vibrations leave {found.residual:.1g} of them at most")
     out.print(f"what it costs, step brake of 1000 N.m at {wanted.V_high:g} m/s:")
-    costs = ((name, METRICS[name].unit, f"{old:.4g}", f"{new:.4g}") for name, (old, new) in found.costs.items())
+    costs = ((name, METRICS[name].unit, *map(_cost, pair)) for name, pair in found.costs.items())
     out.print(table(COSTS, costs))
 
 
@@ -46,10 +47,15 @@ def _remarks(found: Optimum) -> Iterator[str]:
         yield f"more is not better: from {name} = {with_unit(smallest.enough_until, unit)} on it is too little again"
     if after.rebound != 1.0:
         yield "approximate: theory takes a damper of (1 + rebound)/2 C, and the FMU's is the logarithmic decrement"
+    yield from left_out(after)
     low, high = working_point(after).reach
     if math.isfinite(high) or low > after.eps:
         until = f" to {high:.4g} m" if math.isfinite(high) else " on"
         yield f"for small motions about gentle braking, from {low:.4g} m of compression{until}"
+
+
+def _cost(value: float) -> str:
+    return f"{value:.4g}" if math.isfinite(value) else "-"
 
 
 def _damping_cells(one: Judged) -> Row:

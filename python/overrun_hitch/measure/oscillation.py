@@ -24,6 +24,8 @@ Floats = NDArray[np.float64]
 # Below two periods offset, decay and frequency explain each other's share of the trace.
 FEWEST_PERIODS = 2.0
 FEWEST_SAMPLES_A_PERIOD = 4.0
+# What has faded so far is over: of a drawbar that sticks a fit would find the last trembling, -54 1/s at 6 Hz.
+FADED = np.log(1e6)
 # What a fit may leave, relative: with 0.04 growth rates were 2 % off, with 0.08 a damping ratio of 0.1 was 12 % off.
 FITS = 0.05
 PENCIL_SAMPLES = 300  # enough for a start, and keeps the singular value decomposition at milliseconds
@@ -96,8 +98,9 @@ def _result(window: Floats, scaled: Floats, swing: float, unknowns: Floats) -> O
     length = float(window[-1] - window[0])
     frequency = abs(float(unknowns[1])) / (2.0 * np.pi)
     periods = frequency * length
-    if periods < FEWEST_PERIODS:
-        return NoOscillation(f"only {periods:.1f} periods to measure")
+    lasting = min(periods, frequency * FADED / max(abs(float(unknowns[0])), 1e-9))
+    if lasting < FEWEST_PERIODS:
+        return NoOscillation(f"only {lasting:.1f} periods to measure")
     if frequency * length / (len(window) - 1) * FEWEST_SAMPLES_A_PERIOD > 1.0:
         return NoOscillation(f"fewer than {FEWEST_SAMPLES_A_PERIOD:.0f} samples a period")
     offset = float(np.linalg.lstsq(_basis(window, unknowns), scaled, rcond=None)[0][0])

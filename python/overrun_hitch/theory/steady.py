@@ -66,10 +66,8 @@ def inertias(parameters: Parameters) -> tuple[float, float]:
 
 
 def pieces(parameters: Parameters) -> tuple[Piece, ...]:
-    """The spring from the clearance on, as in DrawbarSpring.mo. HitchError for a threshold with k_t = 0: no frame."""
+    """The spring from the clearance on, as in DrawbarSpring.mo."""
     p = parameters
-    if p.F_0 > 0.0 and p.k_t == 0.0:
-        raise HitchError(f"F_0 = {p.F_0:g} N is not allowed with k_t = 0 N/m: the frame must hold the threshold")
     end = max(p.gives_from, p.travel)
     second = min(max(p.gives_from, p.eps + p.x_2), end)
     third = min(max(second, p.eps + p.x_3), end)

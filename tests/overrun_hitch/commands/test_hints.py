@@ -41,7 +41,8 @@ def test_a_sweep_is_told_once_what_its_ends_are(car_trailer_fmu: Path, capsys: p
     expected = ["V_0 = 120 m/s is 432 km/h; speeds are in m/s", "R_t = 35 m is a large wheel; radii are in m"]
     assert sorted(capsys.readouterr().err.splitlines()) == sorted(f"hint: {line}" for line in expected)
     profile = {"hard": {"time": [0.0], "brake_torque": [9000.0]}}
-    for quiet in (SweepSpec(grid={"C": [100.0, 500.0]}), SweepSpec(profiles=profile)):
+    together = {"k_t": [0.0, 548e3], "F_0": [0.0, 100.0]}  # of which one run will be refused
+    for quiet in (SweepSpec(grid={"C": [100.0, 500.0]}), SweepSpec(grid=together), SweepSpec(profiles=profile)):
         hint_sweep(planned(quiet, [car_trailer_fmu]))
     assert capsys.readouterr().err == ""
 

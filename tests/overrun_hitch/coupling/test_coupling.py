@@ -114,8 +114,8 @@ def test_a_scheme_that_fails_does_not_stop_the_others(
 
 
 def run(pair: Pair, name: str, H: float, C: float = 500.0, duration: float = 6.0) -> Coupled:
-    start, torque = gentle_braking(CASES["ii"].changed({"C": C}), V)
-    return pair.run(BY_NAME[name], start, torque, duration, H, 1e-9)
+    braking = gentle_braking(CASES["ii"].changed({"C": C}), V)
+    return pair.run(BY_NAME[name], braking.parameters, braking.brake_torque, duration, H, 1e-9)
 
 
 def test_the_mean_force_conserves_momentum(pair: Pair) -> None:

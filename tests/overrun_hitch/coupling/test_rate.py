@@ -50,8 +50,10 @@ def pair(pair_fmus: dict[int, dict[str, Path]]) -> Iterator[Pair]:
 def run(pair: Pair, C: float, H: float, steps: int | str, resent: bool = False) -> Coupled:
     random = np.random.default_rng(1)
     finer = Finer(pair.trailer, lambda: int(random.integers(1, 11) if steps == "random" else steps), resent)
-    start, torque = gentle_braking(CASES["ii"].changed({"C": C}), V)
-    return Pair(pair.car, finer).run(HOLD, start, torque, 6.0, H, 1e-9)  # type: ignore[arg-type]
+    braking = gentle_braking(CASES["ii"].changed({"C": C}), V)
+    return Pair(pair.car, finer).run(  # type: ignore[arg-type]
+        HOLD, braking.parameters, braking.brake_torque, braking.duration, H, 1e-9
+    )
 
 
 def growth(done: Coupled) -> float:

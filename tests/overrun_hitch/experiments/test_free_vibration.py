@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from overrun_hitch.experiments.free_vibration import measured_decay, measured_mode
+from overrun_hitch.experiments.free_vibration import measured_mode, measured_vibration
 from overrun_hitch.fmu.opening import opened_unit
 from overrun_hitch.parameters import CASES, DATUM, HitchError
 from overrun_hitch.theory.linear import rebound_error, shunting_mode
@@ -44,13 +44,13 @@ def test_clearance_only_shifts_it(car_trailer_fmu: Path) -> None:
     assert wide.eigenvalue == pytest.approx(without.eigenvalue, rel=1e-6)
 
 
-@pytest.mark.parametrize("rebound", [0.0, 0.5, 1.0, 3.0, 5.0])
+@pytest.mark.parametrize("rebound", [0.0, 0.5, 3.0, 5.0])  # 1 is an exponential, above
 @pytest.mark.parametrize("C", [100.0, 200.0, 830.0, 1600.0])
 def test_a_damper_of_two_rates_is_nearly_one_of_their_mean(car_trailer_fmu: Path, C: float, rebound: float) -> None:
     """What theory neglects is what it says, and the FMU always decays a little faster."""
     p = DATUM.changed({"C": 2.0 * C / (1.0 + rebound), "rebound": rebound})
     with opened_unit(car_trailer_fmu) as unit:
-        found = measured_decay(unit, p, 20.0)
+        found = measured_vibration(unit, p, 20.0).eigenvalue
     theory, error = complex(shunting_mode(p, 20.0).eigenvalue), rebound_error(p, 20.0)
     ratios = [-value.real / abs(value) for value in (found, theory)]
     off = ratios[0] / ratios[1] - 1.0

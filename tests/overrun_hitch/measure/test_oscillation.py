@@ -68,6 +68,7 @@ def test_another_trace_of_the_same_motion() -> None:
         (lambda time: np.zeros_like(time), "constant"),
         (lambda time: made(time, -0.5, 0.25), "only 1.5 periods"),
         (lambda time: np.exp(-time), "oscillate|periods"),
+        (lambda time: made(time, -54.0, 5.7), "only 1.5 periods"),
     ],
 )
 def test_a_trace_that_cannot_be_measured_says_why(trace: object, reason: str) -> None:

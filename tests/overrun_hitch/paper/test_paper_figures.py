@@ -12,10 +12,12 @@ from matplotlib.figure import Figure
 from overrun_hitch.experiments.limit_cycle import Sustained
 from overrun_hitch.paper.figures import boundary as boundary_figure
 from overrun_hitch.paper.figures import cycles as cycles_figure
+from overrun_hitch.paper.figures import device as device_figure
 from overrun_hitch.paper.figures import steady as steady_figure
 from overrun_hitch.paper.figures.all import stem
 from overrun_hitch.paper.figures.steady import DECELERATION, DEFLECTIONS, stiffness
 from overrun_hitch.paper.study.curves import DAMPERS
+from overrun_hitch.paper.study.device import SPEEDS
 from overrun_hitch.paper.study.study import Study
 from overrun_hitch.parameters import CASES, DATUM
 from overrun_hitch.theory.steady import steady
@@ -96,6 +98,21 @@ def test_boundary_marks_where_the_fmu_agrees(paper_figures: dict[str, Figure], p
     (axes,) = boundary_figure.draw(wrong).axes
     assert len(points(axes, "o")) == 8
     assert points(axes, "X").tolist() == [[first.ratio, first.V]]
+
+
+def test_the_lag_marks_where_the_fmu_agrees(paper_figures: dict[str, Figure], paper_study: Study) -> None:
+    assert [len(points(axes, "o")) for axes in paper_figures["device"].axes] == [3, 3]
+    assert [len(points(axes, "X")) for axes in paper_figures["device"].axes] == [0, 0]
+    first, *others = paper_study.device.checks
+    wrong = dataclasses.replace(paper_study.device, checks=(dataclasses.replace(first, growth_below=-1.0), *others))
+    axes = device_figure.draw(wrong).axes[SPEEDS.index(first.V)]
+    assert points(axes, "X").tolist() == [[first.ratio, 1e3 * first.tau_b]]
+
+
+def test_the_lags_closed_form_is_within_three_per_cent(paper_study: Study) -> None:
+    """Of the chart, over all speeds, lags and r/k."""
+    found = paper_study.device
+    np.testing.assert_allclose(found.closed_form, found.C_crit, rtol=0.031)
 
 
 def test_cycles_show_every_motion(paper_figures: dict[str, Figure], paper_study: Study) -> None:

@@ -1,46 +1,70 @@
-"""C_crit over the lag of the trailer's brake: lines by theory, marks by the FMU."""
+"""C_crit over the lag of the trailer's brake and r/k: contours by theory, marks by the FMU."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from overrun_hitch.paper.study.device import BESIDE, LAGS, SPEEDS, Device
+from overrun_hitch.paper.study.beyond import CHECKED_RATIOS
+from overrun_hitch.paper.study.device import BESIDE, LAGS, RATIOS, SPEEDS, Device, Floats, LagCheck
 from overrun_hitch.parameters import FIGURES
 from overrun_hitch.show.traces import STYLE
 
 MILLI = 1e3
-LINES: tuple[dict[str, Any], ...] = (
-    {"color": "#9ecae1", "linestyle": "-"},
-    {"color": "#4292c6", "linestyle": (0, (6, 1.5))},
-    {"color": "#08519c", "linestyle": (0, (3, 1.2))},
-    {"color": "#08306b", "linestyle": (0, (1, 1))},
-)
-MARK: dict[str, Any] = {"linestyle": "none", "marker": "o", "markersize": 6.0, "color": "#d55e00", "zorder": 4}
+STEP = 200.0  # N.s/m from contour to contour
+NUMBERED_AT = 5.0  # m, where on the contours their C_crit is written
+CASE_NAMES = ("i", "ii", "iii")  # of CHECKED_RATIOS
+CONTOUR: dict[str, Any] = {"colors": "#0b3c6f", "linewidths": 1.4}
+DAMPER: dict[str, Any] = {"colors": "#000000", "linewidths": 2.4}
+CLOSED_FORM: dict[str, Any] = {"colors": "#999999", "linewidths": 2.6, "linestyles": [(0, (1.2, 1.2))], "zorder": 1.5}
+CASE: dict[str, Any] = {"color": "#777777", "linestyle": (0, (1, 1.5)), "linewidth": 1.0}
+MARK: dict[str, Any] = {"linestyle": "none", "marker": "o", "markersize": 6.5, "color": "#d55e00", "zorder": 4}
 MISS: dict[str, Any] = {"linestyle": "none", "marker": "X", "markersize": 9.0, "color": "#000000", "zorder": 4}
 
 
 def draw(found: Device) -> Figure:
-    """A line for each speed; a mark where the FMU grows with less damping and decays with more."""
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(5.8, 4.2), layout="constrained")
-        axes = figure.subplots()
-        for V, row, line in zip(SPEEDS, found.C_crit, LINES, strict=True):
-            axes.plot(MILLI * LAGS, row, label=f"$V$ = {V:g} m/s, theory", linewidth=1.8, **line)
-        good = [check for check in found.checks if check.holds]
-        aside = f"FMU grows with {100.0 * BESIDE:g} % less,\ndecays with {100.0 * BESIDE:g} % more"
-        axes.plot([MILLI * c.tau_b for c in good], [c.C_crit for c in good], label=aside, **MARK)
-        missed = [check for check in found.checks if not check.holds]
-        if missed:
-            axes.plot([MILLI * c.tau_b for c in missed], [c.C_crit for c in missed], label="FMU does not", **MISS)
-        C = FIGURES["8"].parameters.C
-        axes.axhline(C, color="#777777", linestyle=(0, (1, 1.5)), linewidth=1.0)
-        axes.annotate("figure 8", (MILLI * LAGS[-1], C), (0.0, 3.0), textcoords="offset points", ha="right", fontsize=9)
-        axes.set_xlabel("Lag of the trailer's brake torque $\\tau_b$ (ms)")
-        axes.set_ylabel("$C_\\mathrm{crit}$ (N·s/m)")
-        axes.set_xlim(0.0, 1.04 * MILLI * LAGS[-1])
-        axes.set_ylim(bottom=0.0)
-        axes.legend(loc="upper left", fontsize=9)
+    """A panel for each speed; a mark where the FMU grows with less damping and decays with more."""
+    with mpl.rc_context({**STYLE, "font.size": 11.0}):
+        figure = Figure(figsize=(6.4, 5.0), layout="constrained")
+        panels = figure.subplots(1, len(SPEEDS), sharey=True)
+        for axes, V, C_crit, closed_form in zip(panels, SPEEDS, found.C_crit, found.closed_form, strict=True):
+            _draw_contours(axes, C_crit, closed_form)
+            for name, ratio in zip(CASE_NAMES, CHECKED_RATIOS, strict=True):
+                axes.axvline(ratio, **CASE)
+                at = (ratio, MILLI * LAGS[-1])
+                axes.annotate(name, at, (0.0, 6.0), textcoords="offset points", ha="center", fontsize=10)
+            _draw_checks(axes, [check for check in found.checks if check.V == V])
+            axes.set_title(f"$V$ = {V:g} m/s", fontsize=11, pad=22.0)
+            axes.set_xlabel("$r/k$ (m)")
+            axes.set_ylabel("Lag $\\tau_b$ (ms)")
+            axes.set_ylim(0.0, MILLI * LAGS[-1])
+            axes.grid(visible=False)
+        panels[0].set_ylabel("Lag of the trailer's brake torque $\\tau_b$ (ms)")
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=2, fontsize=10)
     return figure
+
+
+def _draw_contours(axes: Axes, C_crit: Floats, closed_form: Floats) -> None:
+    levels = np.arange(STEP, C_crit.max(), STEP)
+    axes.contour(RATIOS, MILLI * LAGS, closed_form, levels, **CLOSED_FORM)
+    contours = axes.contour(RATIOS, MILLI * LAGS, C_crit, levels, **CONTOUR)
+    C = FIGURES["8"].parameters.C
+    axes.contour(RATIOS, MILLI * LAGS, C_crit, [C], **DAMPER)
+    column = np.array([float(np.interp(NUMBERED_AT, RATIOS, row)) for row in C_crit])
+    places = [(NUMBERED_AT, float(np.interp(level, column, MILLI * LAGS))) for level in levels if level < column[-1]]
+    axes.clabel(contours, fmt="%g", fontsize=10, manual=places)
+    axes.plot([], [], color=CONTOUR["colors"], label="$C_\\mathrm{crit}$ (N·s/m), theory")
+    axes.plot([], [], color=DAMPER["colors"], linewidth=2.4, label=f"{C:g} N·s/m, figure 8")
+    axes.plot([], [], color="#999999", linewidth=2.6, linestyle=(0, (1.2, 1.2)), label="closed form")
+
+
+def _draw_checks(axes: Axes, checks: list[LagCheck]) -> None:
+    aside = f"FMU grows with {100.0 * BESIDE:g} % less,\ndecays with {100.0 * BESIDE:g} % more"
+    for holds, label, style in ((True, aside, MARK), (False, "FMU does not", MISS)):
+        points = [(check.ratio, MILLI * check.tau_b) for check in checks if check.holds == holds]
+        if points:
+            axes.plot(*zip(*points, strict=True), label=label, clip_on=False, **style)

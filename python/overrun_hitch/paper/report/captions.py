@@ -69,10 +69,12 @@ BEYOND: Mapping[str, tuple[str, str]] = {
         "three clearances lie on one another where nothing strikes the tension stop.",
     ),
     "device": (
-        "C_crit of case ii over the lag of the trailer's brake",
-        "A brake that answers late pushes when it should have let go. Some milliseconds of lag take more damper than "
-        "all that the wheels' own lag takes at 40 m/s, and the lines of all speeds run together: with a lag, a "
-        "combination shunts at any speed, down to the stop. Dotted: the damper of figure 8.",
+        "C_crit over r/k, the lag of the trailer's brake and speed",
+        "With less than C_crit the combination shunts by itself. To read one's own: up from r/k to the lag. k lets the "
+        "drawbar in by 1 cm per m/s2, as in cases i, ii and iii (dotted upright), everything else is the datum's. The "
+        "contours lie at even distances one above the other, and at a fourfold speed they are not much lower: C_crit "
+        "rises with the lag almost in proportion, whatever the speed. Broad grey: the closed form. Thick: the damper "
+        "of figure 8.",
     ),
     "stops": (
         "Case ii from 40 m/s to rest",

@@ -10,9 +10,9 @@ import numpy as np
 
 from overrun_hitch.paper.claims.claim import Claim
 from overrun_hitch.paper.study.beyond import CHECKED_RATIOS, CYCLE_SPEED, Boundary, Motion, designed
-from overrun_hitch.paper.study.device import FRICTION, LAGS, SPEEDS, TYPICAL_LAG, Device
+from overrun_hitch.paper.study.device import FRICTION, TYPICAL_LAG, Device
 from overrun_hitch.paper.study.study import SteadyState, Study
-from overrun_hitch.parameters import CASES, FIGURES
+from overrun_hitch.parameters import CASES, FIGURES, Parameters
 from overrun_hitch.theory.boundary import critical_damping
 from overrun_hitch.theory.linear import shunting_mode
 
@@ -22,6 +22,7 @@ SATURATED = 0.1  # by how much C_crit may rise when r/k doubles from STRONG on
 STRONG = 5.0  # m, of r/k
 THE_SAME = 1e-3  # relative: amplitudes that are called equal
 CLOSE = 0.1  # relative error of a good estimate
+SLOW = 5.0  # m/s
 OSCILLATING = ("sustained", "unsettled")
 
 
@@ -52,19 +53,24 @@ def lessons(study: Study, claims: Sequence[Claim]) -> list[Lesson]:
 
 def lag_decides(found: Device) -> Lesson:
     """A brake that lags needs a damper by its lag."""
-    at = int(np.abs(LAGS - TYPICAL_LAG).argmin())
-    needed, prompt = found.C_crit[:, at], found.C_crit[:, 0]
-    C = FIGURES["8"].parameters.C
+    p = FIGURES["8"].parameters
+    slow, fast = (lagging(p, V) for V in (SLOW, p.V_0))
+    prompt = [critical_damping(p, V) for V in (SLOW, p.V_0)]
     text = (
         "The paper's brake answers at once; a real one follows its rods and cables, and that decides. With a lag of "
-        f"{MILLI * TYPICAL_LAG:g} ms case ii needs {needed[0]:.0f} N.s/m at {SPEEDS[0]:g} m/s and {needed[-1]:.0f} at "
-        f"{SPEEDS[-1]:g} m/s, without one {prompt[0]:.0f} and {prompt[-1]:.0f}. The combination of figure 8 (C = {C:g} "
-        f"N.s/m), which does not shunt, then does: it grows with {found.growth_rate:.2f} 1/s, and as the lag's share "
-        "does not fall with the speed, it slows to its stop shunting. Measure the lag, make it short (stiff rods, no "
-        "slack cable), and choose the damper for it."
+        f"{MILLI * TYPICAL_LAG:g} ms case ii needs {slow:.0f} N.s/m at {SLOW:g} m/s and {fast:.0f} at {p.V_0:g} m/s, "
+        f"without one {prompt[0]:.0f} and {prompt[1]:.0f}. The combination of figure 8 (C = {p.C:g} N.s/m), which does "
+        f"not shunt, bears {MILLI * found.borne:.0f} ms at {p.V_0:g} m/s. With {MILLI * TYPICAL_LAG:g} ms its shunting "
+        f"grows with {found.growth_rate:.2f} 1/s, and as the lag's share does not fall with the speed, it slows to its "
+        "stop shunting. Measure the lag, make it short (stiff rods, no slack cable), and choose the damper for it."
     )
-    holds = all(check.holds for check in found.checks) and bool(prompt[-1] < C < needed.min())
+    holds = all(check.holds for check in found.checks) and prompt[1] < p.C < slow < fast
     return Lesson("The lag of the brake decides, not the tyres.", text, holds)
+
+
+def lagging(parameters: Parameters, V: float) -> float:
+    """C_crit (N.s/m) at V (m/s) with TYPICAL_LAG."""
+    return critical_damping(parameters.changed({"tau_b": TYPICAL_LAG}), V)
 
 
 def friction_hides(found: Device) -> Lesson:
@@ -82,6 +88,7 @@ def top_speed(found: Boundary) -> Lesson:
     slope = found.C_crit / found.speeds[:, None]
     spread = float((slope.max(axis=0) / slope.min(axis=0) - 1.0).max())
     at = {V: critical_damping(CASES["ii"], V) for V in (10.0, CYCLE_SPEED)}
+    lags = {V: lagging(CASES["ii"], V) for V in at}
     low, high = found.speeds[0], found.speeds[-1]
     text = (
         "Where the brake does not lag, the least damper that keeps the combination from shunting by itself, C_crit, "
@@ -89,7 +96,8 @@ def top_speed(found: Boundary) -> Lesson:
         f"speed: between {low:g} and {high:g} m/s C_crit / V varies by {100.0 * spread:.2g} % at most. Case ii needs "
         f"{at[10.0]:.0f} N.s/m at 10 m/s and {at[CYCLE_SPEED]:.0f} N.s/m at {CYCLE_SPEED:g} m/s. The stiffness of the "
         "tyres and the inertia of the wheels set the factor: what delays the brake's force is the time that slip "
-        "takes to build up, and it is proportional to the speed."
+        "takes to build up, and it is proportional to the speed. What a lag asks comes on top: with "
+        f"{MILLI * TYPICAL_LAG:g} ms case ii needs {lags[10.0]:.0f} and {lags[CYCLE_SPEED]:.0f} N.s/m."
     )
     return Lesson("Size the damper for the top speed.", text, spread < IN_PROPORTION)
 
@@ -101,8 +109,8 @@ def small_oscillations_decide(motions: Sequence[Motion]) -> Lesson:
     under = [motion for motion in motions if limit > motion.C]
     clearances = sorted({motion.eps for motion in motions})
     text = (
-        f"Linear theory knows no clearance, and still it decides. With C above C_crit = {limit:.1f} N.s/m "
-        f"({', '.join(f'{C:g}' for C in _dampers(above))} N.s/m) all {len(above)} oscillations faded on the FMU; with "
+        "Linear theory knows no clearance, and still it decides. With C above C_crit, without lag "
+        f"{limit:.1f} N.s/m, all {len(above)} oscillations faded on the FMU ({_list(_dampers(above))} N.s/m); with "
         f"C below it ({_list(_dampers(under))} N.s/m) none of {len(under)} did, whether the clearance was "
         f"{_list(clearances)} m. Take up backlash for the sake of comfort and of quick brakes; against shunting only "
         "the damper helps."
@@ -194,12 +202,13 @@ def strong_brakes(found: Boundary, steady: Mapping[str, SteadyState]) -> Lesson:
     weak, _, strong = CHECKED_RATIOS
     at = {ratio: critical_damping(designed(ratio), CYCLE_SPEED) for ratio in (weak, strong, STRONG, 2.0 * STRONG)}
     doubled = at[2.0 * STRONG] / at[STRONG] - 1.0
+    lags = [lagging(designed(ratio), CYCLE_SPEED) for ratio in (weak, strong)]
     text = (
         f"From case i (r/k = {weak:g} m) to case iii ({strong:g} m) the deceleration ratio A/A_c goes from "
         f"{steady['i'].ratio:.2f} to {steady['iii'].ratio:.2f}, and C_crit at {CYCLE_SPEED:g} m/s from {at[weak]:.0f} "
         f"to {at[strong]:.0f} N.s/m, with the spring chosen for the same deflection. Doubling r/k from {STRONG:g} to "
-        f"{2.0 * STRONG:g} m adds only {100.0 * doubled:.1f} %. So a good deceleration is not bought with shunting, "
-        "if the damper is there."
+        f"{2.0 * STRONG:g} m adds only {100.0 * doubled:.1f} %. With a lag of {MILLI * TYPICAL_LAG:g} ms it goes from "
+        f"{lags[0]:.0f} to {lags[1]:.0f}. So a good deceleration is not bought with shunting, if the damper is there."
     )
     return Lesson("A stronger trailer brake asks for little more damping.", text, rises and doubled < SATURATED)
 
@@ -208,17 +217,19 @@ def margin(claims: Sequence[Claim]) -> Lesson:
     """How much damping is comfortable, and what too much costs."""
     p = FIGURES["8"].parameters
     limit, mode = critical_damping(p, p.V_0), shunting_mode(p, p.V_0)
+    share = p.C / lagging(p, p.V_0)
     delays = [part for claim in claims for part in claim.parts if "delay" in part.what and "figure 11" in part.what]
     delay = delays[0].fmu
     more, less = FIGURES["11"].parameters, FIGURES["10"].parameters
     text = (
         f"At C_crit oscillations merely do not grow. The damper of figure 8, C = {p.C:g} N.s/m or {p.C / limit:.1f} "
         f"times C_crit, gives {100.0 * float(mode.damping_ratio):.1f} % of critical damping at {p.V_0:g} m/s, and "
-        f"every oscillation halves in {np.log(2.0) / -float(mode.growth_rate):.1f} s. Too much is not free where "
+        f"every oscillation halves in {np.log(2.0) / -float(mode.growth_rate):.1f} s; with a lag of "
+        f"{MILLI * TYPICAL_LAG:g} ms it is {share:.1f} times C_crit, too little. Too much is not free where "
         f"there is clearance: with {more.eps:g} m of it, C = {more.C:g} instead of {less.C:g} N.s/m lets the "
         f"trailer's brakes come {delay:.2f} s later."
     )
-    holds = limit < p.C and delay > 0.0 and float(mode.growth_rate) < 0.0
+    holds = limit < p.C and share < 1.0 and delay > 0.0 and float(mode.growth_rate) < 0.0
     return Lesson("Leave a margin, but not a wall.", text, holds)
 
 
