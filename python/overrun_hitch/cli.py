@@ -27,6 +27,7 @@ from overrun_hitch.commands.sensitivity import sensitivity
 from overrun_hitch.commands.stability import stability
 from overrun_hitch.commands.sweep import sweep
 from overrun_hitch.parameters import HitchError
+from overrun_hitch.show.words import printable
 
 app = typer.Typer(
     help="Longitudinal oscillations of a car and its overrun-braked trailer (Sharp 1982).",
@@ -56,7 +57,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 70  # EX_SOFTWARE of sysexits.h
     else:
         return status if isinstance(status, int) else 0
-    _arrives(f"hitch: {' '.join(message.split())}", sys.stderr)
+    _arrives(f"hitch: {printable(' '.join(message.split()))}", sys.stderr)
     return 2
 
 

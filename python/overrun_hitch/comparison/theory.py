@@ -28,7 +28,7 @@ from overrun_hitch.measure.judged import Judged
 from overrun_hitch.measure.oscillation import NoOscillation, Oscillation, fitting, measure
 from overrun_hitch.measure.passages import compressed_from
 from overrun_hitch.parameters import HitchError, Parameters
-from overrun_hitch.results import scenario_of, values
+from overrun_hitch.results import missing, scenario_of, values
 from overrun_hitch.theory.linear import ShuntingMode, shunting_mode, wheel_decay_rate
 from overrun_hitch.theory.steady import steady
 
@@ -39,6 +39,7 @@ FREQUENCY_ALLOWED = 0.002  # relative
 STEADY_ALLOWED = 1e-4  # relative, beside slip
 RATIO_ALLOWED = 0.0005
 
+NEEDED = ("v_car", "v_trailer", "a_car", "compression", "slip_car", "slip_trailer")
 WHEELS_SETTLED = math.log(1e6)  # the wheels' transient starts at the size of the motion itself
 DECAYED = math.log(100.0)  # 40 dB down the rest weighs nothing in the fit, and soon is the integrator's noise
 SETTLED = math.log(1e5)  # below what is allowed for steady values
@@ -76,7 +77,11 @@ def compare(run: xr.Dataset, alone: xr.Dataset) -> list[Judged]:
 
     Growth rate (1/s) and frequency (Hz) are means over the window that was fitted (NaN where no exponential fits),
     theory's of the eigenvalue at the simulated speed of the car; then the paper's A (m/s2), A / A_c (1) and D (m).
+    HitchError where the run has not what is NEEDED.
     """
+    absent = [name for name in NEEDED if name in missing(run)]
+    if absent:
+        raise HitchError(f"{run.attrs['fmu']} has no {', '.join(absent)}, which the comparison with theory needs")
     part = _settled_part(run)
     found = fitting(_oscillation(part))
     return [*_mode_rows(part, part.window, found), *_steady_rows(part, found, run, alone)]

@@ -54,12 +54,14 @@ def brake(unit: AnyUnit, scenario: Scenario, settings: Settings) -> xr.Dataset:
     try:
         rows = unit.perform(drive, scenario.parameters, inputs, settings.relative_tolerance, steps, STANDSTILL)
     except GuestLost as error:
-        raise HitchError(f"{error}; {_differences(scenario)}") from None
+        raise type(error)(f"{error}; {_differences(scenario)}") from None
+    identity = unit.identity
     attributes = {
         **scenario_attributes(scenario),
         **settings.model_dump(),
         "fmu": unit.name,
-        "guid": unit.guid,
+        "guid": identity.guid,
+        "missing": ", ".join(identity.missing),
         "ended": "duration" if len(rows) == len(points) else "standstill",
         "versions": ", ".join(f"{name} {version(name)}" for name in ("fmpy", "numpy", "xarray")),
     }
