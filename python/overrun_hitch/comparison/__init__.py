@@ -5,6 +5,7 @@ __all__ = [
     "crosscheck_figures",
     "crosscheck_table",
     "distances",
+    "proposal",
     "record",
     "sources",
     "theory",

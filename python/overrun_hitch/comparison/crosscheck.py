@@ -1,41 +1,36 @@
 """The same step brake by several files that should be the same model, and how far each is from the first, A.
 
-What may differ, and why:
-
-- traces: a funnel (see funnel.py) of 0.1 % of the variable's range in A, and of 0.1 ms to either side. Our FMU at
-  tolerances from 1e-3 to 1e-6 stays within 0.02 %; with a damper or a spring 1 % off some variable of every figure
-  leaves it. 0.1 ms is a fortieth of the fastest time constant (the wheels' at 40 m/s): a steep flank is no false alarm.
-- growth rate 0.001 1/s + 0.1 %, frequency 0.01 %, the damping ratio by both: about ten times closer than theory has to
-  come (theory.py), because both sides solve the same equations. Judged where both drawbars stay in compression once
-  there; else reported.
-- times at which the drawbar passes 0 and eps: the funnel's width, one by one, in the same order.
+What may differ, and why, stands in distances.py and numbers.py.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from itertools import zip_longest
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from string import ascii_uppercase
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
+from overrun_hitch.comparison.alignment import Alignment, align
 from overrun_hitch.comparison.distances import Allowed, Distance, distances
-from overrun_hitch.comparison.sources import UnitSource
-from overrun_hitch.comparison.theory import shunting
-from overrun_hitch.fmu.settings import Settings
+from overrun_hitch.comparison.motion import with_motion
+from overrun_hitch.comparison.numbers import measured_numbers, passage_numbers, shunting_numbers
+from overrun_hitch.comparison.sources import Manoeuvre, Source, TheorySource, TraceSource, UnitSource
+from overrun_hitch.comparison.theory import compare
+from overrun_hitch.experiments.step_brake import car_alone
 from overrun_hitch.measure.judged import Judged
-from overrun_hitch.measure.oscillation import NoOscillation, Oscillation
-from overrun_hitch.measure.passages import Passage, passages
+from overrun_hitch.measure.resampling import is_even
 from overrun_hitch.parameters import HitchError, Scenario
-from overrun_hitch.results import VARIABLES, missing, values
+from overrun_hitch.results import values
+
+Floats = NDArray[np.float64]
 
 LABELS = ascii_uppercase  # of the files, in the order in which they were given; A is the reference
-
-GROWTH_RATE_ALLOWED = (0.001, 0.001)  # 1/s, and relative
-FREQUENCY_ALLOWED = 1e-4  # relative
+END = "end of the run"
+NOISE_ALLOWED = 5.0  # standard deviations: one of two million samples of white noise lies beyond
 
 
 @dataclass(frozen=True)
@@ -46,7 +41,8 @@ class Comparison:
     distances: tuple[Distance, ...] = ()  # in the order of results.VARIABLES
     numbers: tuple[Judged, ...] = ()  # growth rate, frequency, end of the run
     passages: tuple[Judged, ...] = ()  # times (s) at which the drawbar passes 0 or eps
-    runs: tuple[xr.Dataset, ...] = ()  # A's and its own
+    runs: tuple[xr.Dataset, ...] = ()  # A's and its own, at the same times
+    alignment: Alignment | None = None  # of a measured trace
     failure: str = ""  # why there is nothing to compare
 
     @property
@@ -67,29 +63,93 @@ class Crosscheck:
     """One scenario on all of them."""
 
     scenario: Scenario
-    reference: xr.Dataset  # A's run
+    reference: xr.Dataset | None  # A's run; None for theory
     comparisons: tuple[Comparison, ...]  # of all but A
 
 
-def crosscheck(scenario: Scenario, sources: Sequence[UnitSource], settings: Settings, allowed: Allowed) -> Crosscheck:
-    """Run `scenario` on each and compare with the first. HitchError for what is wrong with that one."""
-    reference = sources[0].run(scenario, settings)
-    others = zip(LABELS[1:], sources[1:], strict=False)
-    return Crosscheck(
-        scenario,
-        reference,
-        tuple(_compared(reference, scenario, other, label, settings, allowed) for label, other in others),
+def crosscheck(asked: Manoeuvre, sources: Sequence[Source], allowed: Allowed, measured: bool = False) -> Crosscheck:
+    """Run the scenario on each and compare with the first. HitchError for what is wrong with that one.
+
+    `measured`: traces in files are brought in line with A's time, and their noise is allowed for.
+    """
+    first, *others = sources
+    reference = None if isinstance(first, TheorySource) else first.run(asked)
+    if measured and not isinstance(first, UnitSource):
+        raise HitchError("--measured needs an FMU as the reference, A, to bring the others in line with")
+
+    def comparison(other: Source, label: str) -> Comparison:
+        if reference is None:
+            return _with_theory(asked, other, label)
+        if measured and isinstance(other, TraceSource):
+            return _measured(asked, first, reference, other, label, allowed)
+        return _simulated(asked, first, reference, other, label, allowed)
+
+    comparisons = []
+    for label, other in zip(LABELS[1:], others, strict=False):
+        try:
+            comparisons.append(comparison(other, label))
+        except HitchError as error:  # what goes wrong with one of the others is its own affair
+            comparisons.append(Comparison(label, failure=str(error)))
+    return Crosscheck(asked.scenario, reference, tuple(comparisons))
+
+
+def _simulated(
+    asked: Manoeuvre, first: Source, reference: xr.Dataset, other: Source, label: str, allowed: Allowed
+) -> Comparison:
+    """At the times of a trace, if one of the two is one: a simulation can be asked for any."""
+    if isinstance(other, TraceSource):
+        run = other.run(asked, _within(reference, other) if isinstance(first, TraceSource) else None)
+        reference = first.run(asked, values(run, "time"))
+    else:
+        run = other.run(asked, values(reference, "time") if isinstance(first, TraceSource) else None)
+    found = compare_runs(reference, run, label, allowed)
+    if not {TraceSource} & {type(first), type(other)}:
+        return found
+    if not is_even(values(found.runs[0], "time")):
+        even = _even_grid(found.runs[0], asked)
+        numbers = compare_runs(first.run(asked, even), other.run(asked, even), label, allowed).numbers
+        found = replace(found, numbers=numbers)
+    ends = [number for number in found.numbers if number.quantity != END]  # a trace ends where it ends
+    return replace(found, numbers=tuple(ends))
+
+
+def _within(reference: xr.Dataset, other: TraceSource) -> Floats:
+    """The times of one trace at which there is another one."""
+    time, ends = values(reference, "time"), other.trace.time[[0, -1]]
+    return np.asarray(time[(time >= ends[0]) & (time <= ends[1])])
+
+
+def _even_grid(run: xr.Dataset, asked: Manoeuvre) -> Floats:
+    """Multiples of the communication step within the run."""
+    h, time = asked.settings.communication_step, values(run, "time")
+    return np.asarray(np.arange(math.ceil(time[0] / h - 1e-9), math.floor(time[-1] / h + 1e-9) + 1) * h)
+
+
+def _measured(
+    asked: Manoeuvre, first: Source, reference: xr.Dataset, other: TraceSource, label: str, allowed: Allowed
+) -> Comparison:
+    alignment = align(reference, other.trace)
+    run = TraceSource(other.trace.shifted(alignment.shift)).run(asked)
+    own = first.run(asked, values(run, "time"))
+    noise = {name: NOISE_ALLOWED * sigma for name, sigma in alignment.noise.items()}
+    wider = allowed.model_copy(update={"funnel_time": allowed.funnel_time + alignment.error})
+    even = _even_grid(run, asked)
+    at_even = TraceSource(other.trace.shifted(alignment.shift)).run(asked, even)
+    return Comparison(
+        label=label,
+        distances=distances(own, run, label, wider, noise),
+        numbers=measured_numbers(first.run(asked, even), at_even),
+        runs=(own, run),
+        alignment=alignment,
     )
 
 
-def _compared(
-    reference: xr.Dataset, scenario: Scenario, other: UnitSource, label: str, settings: Settings, allowed: Allowed
-) -> Comparison:
-    """What goes wrong with one of the others is its own affair."""
-    try:
-        return compare_runs(reference, other.run(scenario, settings), label, allowed)
-    except HitchError as error:
-        return Comparison(label, failure=str(error))
+def _with_theory(asked: Manoeuvre, other: Source, label: str) -> Comparison:
+    run = other.run(asked)
+    alone = None
+    if isinstance(other, UnitSource):
+        alone = other.run(replace(asked, scenario=car_alone(asked.scenario)))
+    return Comparison(label, numbers=tuple(compare(run, alone)), runs=(run, run))
 
 
 def compare_runs(reference: xr.Dataset, run: xr.Dataset, label: str, allowed: Allowed) -> Comparison:
@@ -100,84 +160,14 @@ def compare_runs(reference: xr.Dataset, run: xr.Dataset, label: str, allowed: Al
     for one in (reference, run):
         if one.sizes["time"] < 2:
             raise HitchError(f"{one.attrs['fmu']} does not run: it is at rest at t = 0")
-    ends = Judged("end of the run", "s", float(reference["time"][-1]), float(run["time"][-1]), 0.0)
+    ends = Judged(END, "s", float(reference["time"][-1]), float(run["time"][-1]), 0.0)
     both = slice(0, min(reference.sizes["time"], run.sizes["time"]))
     reference, run = reference.isel(time=both), run.isel(time=both)
     a, b = with_motion(reference, run), with_motion(run, reference)
     return Comparison(
         label=label,
         distances=distances(reference, run, label, allowed),
-        numbers=(*_shunting_numbers(a, b, label), ends),
-        passages=() if missing_motion([a, b]) else _passage_numbers(_passages(a), _passages(b), allowed),
+        numbers=(*shunting_numbers(a, b, label), ends),
+        passages=passage_numbers(a, b, allowed),
         runs=(reference, run),
     )
-
-
-def with_motion(run: xr.Dataset, other: xr.Dataset) -> xr.Dataset:
-    """`run` with the speeds that it has not: the car's from the `other`, the trailer's by the rate of compression."""
-    absent = missing(run)
-    if "v_car" in absent:
-        run = run.assign(v_car=other["v_car"])
-    if "v_trailer" in absent:
-        rate = np.gradient(values(run, "compression"), values(run, "time"))
-        run = run.assign(v_trailer=("time", values(run, "v_car") + rate, run["v_trailer"].attrs))
-    return run
-
-
-def missing_motion(runs: Iterable[xr.Dataset]) -> bool:
-    """Whether one of them has no compression, without which nothing is known of shunting and passages."""
-    return any("compression" in missing(run) for run in runs)
-
-
-def _shunting_numbers(reference: xr.Dataset, run: xr.Dataset, label: str) -> tuple[Judged, ...]:
-    (a, reason), (b, other_reason) = _shunting(reference), _shunting(run)
-    reason = reason or (other_reason and f"{label}: {other_reason}")
-    (growth, frequency), (other_growth, other_frequency) = _rates(a), _rates(b)
-    growth_allowed = GROWTH_RATE_ALLOWED[0] + GROWTH_RATE_ALLOWED[1] * abs(growth)
-    damping, other_damping = _damping(growth, frequency), _damping(other_growth, other_frequency)
-    damping_allowed = growth_allowed / (2.0 * math.pi * frequency) + FREQUENCY_ALLOWED * abs(damping)
-    return (
-        Judged("shunting growth", "1/s", growth, other_growth, growth_allowed, reason),
-        Judged("shunting frequency", "Hz", frequency, other_frequency, FREQUENCY_ALLOWED * frequency, reason),
-        Judged("damping ratio", "1", damping, other_damping, damping_allowed, reason),
-    )
-
-
-def _shunting(run: xr.Dataset) -> tuple[Oscillation | NoOscillation, str]:
-    """The oscillation, and "" or why it is not judged."""
-    if missing_motion([run]):
-        return NoOscillation(""), "no compression is given"
-    if not (_is_finite(run) and (run["v_car"] > 0.0).all()):  # what theory needs to say where start-up is over
-        return NoOscillation(""), "the traces are not those of a vehicle that rolls forward"
-    found, reason = shunting(run)
-    return found, reason or (found.reason if isinstance(found, NoOscillation) else "")
-
-
-def _rates(found: Oscillation | NoOscillation) -> tuple[float, float]:
-    """Growth rate (1/s) and frequency (Hz)."""
-    return (found.growth_rate, found.frequency) if isinstance(found, Oscillation) else (math.nan, math.nan)
-
-
-def _damping(growth: float, frequency: float) -> float:
-    return -growth / math.hypot(growth, 2.0 * math.pi * frequency)
-
-
-def _passages(run: xr.Dataset) -> tuple[Passage, ...]:
-    return passages(run) if _is_finite(run) else ()
-
-
-def _is_finite(run: xr.Dataset) -> bool:
-    given = [name for name in VARIABLES if name not in missing(run)]
-    return bool(np.isfinite([values(run, name) for name in (*given, "v_car", "v_trailer")]).all())
-
-
-def _passage_numbers(a: Sequence[Passage], b: Sequence[Passage], allowed: Allowed) -> tuple[Judged, ...]:
-    """Each passage of A with that of the other, in order; those of one alone, or of different kinds, differ."""
-    rows: list[tuple[str, float, float]] = []
-    for ours, theirs in zip_longest(a, b):
-        if ours and theirs and ours.kind == theirs.kind:
-            rows.append((ours.kind, ours.time, theirs.time))
-        else:
-            rows += [(ours.kind, ours.time, math.nan)] if ours else []
-            rows += [(theirs.kind, math.nan, theirs.time)] if theirs else []
-    return tuple(Judged(f"passes {kind}", "s", here, there, allowed.funnel_time) for kind, here, there in rows)

@@ -48,6 +48,7 @@ def _needed(one: tuple[str, ...], others: Sequence[tuple[str, ...]]) -> int:
 def draw(check: Crosscheck, names: list[str], allowed: Allowed) -> Figure:
     """Two panels for one scenario; `names` of the files in their order, A's first."""
     reference = check.reference
+    assert reference is not None  # theory has no traces to draw
     time, a = values(reference, "time"), values(reference, "compression")
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.4, 5.2), layout="constrained")

@@ -9,18 +9,20 @@ from pathlib import Path
 
 from rich.console import Console
 
-from overrun_hitch.comparison.crosscheck import FREQUENCY_ALLOWED, GROWTH_RATE_ALLOWED, Comparison, Crosscheck
+from overrun_hitch.comparison.alignment import Alignment
+from overrun_hitch.comparison.crosscheck import Comparison, Crosscheck
 from overrun_hitch.comparison.distances import Allowed, Distance
+from overrun_hitch.comparison.numbers import FREQUENCY_ALLOWED, GROWTH_RATE_ALLOWED
 from overrun_hitch.comparison.record import Compared
 from overrun_hitch.measure.judged import Judged
-from overrun_hitch.results import values
+from overrun_hitch.results import VARIABLES, values
 from overrun_hitch.show.table import Column, Numbers, Row, coloured, console, number, show_rows, show_written, small
 from overrun_hitch.show.words import printable
 
 MOST_PASSAGES = 6  # in a table; figure 6a has 22
 DISTANCES = (
     *(Column(heading) for heading in ("", "variable", "unit")),
-    *(Numbers(heading) for heading in ("distance", "of range", "at (s)", "rms", "leaves (s)")),
+    *(Numbers(heading) for heading in ("distance", "of range", "at (s)", "rms")),
     Column("verdict"),
 )
 NUMBERS = (
@@ -43,8 +45,9 @@ def show(checks: Sequence[Crosscheck], compared: Sequence[Compared], allowed: Al
     )
     absolute, relative = GROWTH_RATE_ALLOWED
     out.print(
-        f"growth rate: {absolute:g} 1/s + {100.0 * relative:g} %, frequency: {100.0 * FREQUENCY_ALLOWED:g} % "
-        "(why so much: docs/crosscheck.md)"
+        f"growth rate: {absolute:g} 1/s + {100.0 * relative:g} %, frequency: {100.0 * FREQUENCY_ALLOWED:g} %; why: "
+        "docs/crosscheck.md",
+        soft_wrap=True,
     )
     for check in checks:
         _show_figure(out, check)
@@ -57,6 +60,15 @@ def show(checks: Sequence[Crosscheck], compared: Sequence[Compared], allowed: Al
 def _say(out: Console, line: str) -> None:
     """A line that may have other people's words in it."""
     out.print(printable(line), markup=False, soft_wrap=True)
+
+
+def aligned(found: Alignment) -> str:
+    """What was found of a measured trace, in a sentence."""
+    noises = ", ".join(f"{name} {small(sigma)} {VARIABLES[name][0]}" for name, sigma in found.noise.items())
+    return (
+        f"its time is {found.shift:.4f} s late, with 95 % confidence to {small(found.error)} s; "
+        f"noise (standard deviation): {noises}"
+    )
 
 
 def _show_verdict(out: Console, label: str, comparisons: dict[str, Comparison]) -> None:
@@ -82,14 +94,17 @@ def _show_verdict(out: Console, label: str, comparisons: dict[str, Comparison]) 
 
 
 def _show_figure(out: Console, check: Crosscheck) -> None:
-    last = float(values(check.reference, "time")[-1])
+    last = check.scenario.duration if check.reference is None else float(values(check.reference, "time")[-1])
     speed = check.scenario.parameters.V_0
     out.print(f"\n{check.scenario.name}: {check.scenario.brake_torque:g} N.m at {speed:g} m/s, {last:g} s")
     distances = [(c.label, row) for c in check.comparisons for row in c.distances if not row.not_judged]
     numbers = [(c.label, judged) for c in check.comparisons for judged in (*c.numbers, *_farthest(c.passages))]
-    show_rows(out, DISTANCES, starmap(_distance_cells, distances), starmap(_distance_sentence, distances))
+    if distances:
+        show_rows(out, DISTANCES, starmap(_distance_cells, distances), starmap(_distance_sentence, distances))
     show_rows(out, NUMBERS, starmap(_number_cells, numbers), starmap(_number_sentence, numbers))
     for c in check.comparisons:
+        if c.alignment:
+            _say(out, f"{c.label}: {aligned(c.alignment)}")
         if len(c.passages) > MOST_PASSAGES:
             out.print(f"{c.label}: of {len(c.passages)} drawbar passages the {MOST_PASSAGES} farthest apart")
     for reason in dict.fromkeys(judged.not_judged for _, judged in numbers if judged.not_judged):
@@ -97,7 +112,7 @@ def _show_figure(out: Console, check: Crosscheck) -> None:
 
 
 def _distance_cells(label: str, row: Distance) -> Row:
-    numbers = (small(row.largest), _percent(row), number(row.at, 2), small(row.rms), number(row.leaves, 2))
+    numbers = (small(row.largest), _percent(row), number(row.at, 2), small(row.rms))
     return (label, row.variable, row.unit, *numbers, coloured(row.verdict))
 
 

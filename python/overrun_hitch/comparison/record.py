@@ -13,8 +13,8 @@ from lxml import etree
 
 from overrun_hitch.comparison.crosscheck import LABELS, Comparison, Crosscheck
 from overrun_hitch.comparison.distances import Allowed, Distance
-from overrun_hitch.comparison.sources import UnitSource
-from overrun_hitch.fmu.settings import Settings
+from overrun_hitch.comparison.sources import Manoeuvre, Source
+from overrun_hitch.experiments.torque import Torque
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.show.words import printable
 
@@ -41,7 +41,7 @@ class Compared:
     provenance: dict[str, Any]
 
 
-def compared(sources: Sequence[UnitSource]) -> list[Compared]:
+def compared(sources: Sequence[Source]) -> list[Compared]:
     """All of them, under their labels."""
     return [Compared(label, one.name, one.notes, one.provenance()) for label, one in zip(LABELS, sources, strict=False)]
 
@@ -57,7 +57,7 @@ def status(checks: Sequence[Crosscheck]) -> int:
 def document(
     checks: Sequence[Crosscheck],
     compared: Sequence[Compared],
-    settings: Settings,
+    manoeuvres: Sequence[Manoeuvre],
     allowed: Allowed,
     paths: Sequence[Path],
 ) -> dict[str, Any]:
@@ -66,18 +66,18 @@ def document(
         "agrees": status(checks) == 0,
         "status": status(checks),
         "sources": [{"label": one.label, **one.provenance} for one in compared],
-        "settings": {**settings.model_dump(), **allowed.model_dump()},
+        "settings": {**manoeuvres[0].settings.model_dump(), **allowed.model_dump()},
         "tolerances": TOLERANCES,
         "versions": _versions(),
         "figures": [
             {
                 "name": check.scenario.name,
-                "brake_torque": check.scenario.brake_torque,
+                "brake_torque": check.scenario.brake_torque if not asked.torque else _knots(asked.torque),
                 "duration": check.scenario.duration,
                 "parameters": check.scenario.parameters.model_dump(),
                 "comparisons": [_comparison(comparison) for comparison in check.comparisons],
             }
-            for check in checks
+            for check, asked in zip(checks, manoeuvres, strict=True)
         ],
         "files": [str(path) for path in paths],
     }
@@ -117,6 +117,10 @@ def _words(row: Distance | Judged) -> str:
     return f"{row.expected:.9g} and {row.found:.9g} {row.unit}, allowed {row.allowed:.3g} {row.unit}"
 
 
+def _knots(torque: Torque) -> dict[str, list[float]]:
+    return {"time": torque.time.tolist(), "brake_torque": torque.values.tolist()}
+
+
 def _versions() -> dict[str, str]:
     found = {"python": platform.python_version(), "platform": platform.platform()}
     for name in PACKAGES:
@@ -139,6 +143,7 @@ def _comparison(comparison: Comparison) -> dict[str, Any]:
         "agrees": not comparison.failure and not comparison.differing,
         "failure": comparison.failure,
         "not_compared": comparison.not_compared,
+        "alignment": comparison.alignment and asdict(comparison.alignment),
         "variables": [row(distance) for distance in comparison.distances],
         "numbers": [pair(judged) for judged in comparison.numbers],
         "passages": [pair(judged) for judged in comparison.passages],

@@ -48,6 +48,7 @@ class Unit:
         self.name = name
         self._messages = messages
         self.identity = identity(description, "cs")
+        self.interpolates = bool(description.coSimulation and description.coSimulation.canInterpolateInputs)
         self._slave = slave
         self._references = {variable.name: variable.valueReference for variable in description.modelVariables}
         self.names = frozenset(self._references)
@@ -77,8 +78,8 @@ class Unit:
 
     def set_slopes(self, slopes: Mapping[str, float]) -> None:
         """How inputs change during the next step, by name, in their units per second."""
-        references = [self._references[name] for name in slopes]
-        self._slave.setRealInputDerivatives(references, [1] * len(references), list(slopes.values()))
+        references, values = self._settings(slopes)
+        self._slave.setRealInputDerivatives(references, [1] * len(references), values)
 
     def change(self, values: Mapping[str, float], slopes: Mapping[str, float]) -> None:
         """Set inputs, and how they change during the next step. StepRefused if the unit doesn't take them."""
@@ -88,6 +89,16 @@ class Unit:
                 self.set_slopes(slopes)
         except FMICallException as error:
             raise StepRefused(refusal(self.name, self._messages, error)) from None
+
+    def feed(self, name: str, start: float, end: float, size: float) -> None:
+        """An input that goes straight from `start` to `end` during the next step, of `size` s.
+
+        A unit that takes no slopes holds the mean. StepRefused as for `change`.
+        """
+        if self.interpolates:
+            self.change({name: start}, {name: (end - start) / size})
+        else:
+            self.change({name: 0.5 * (start + end)}, {})
 
     def get(self, names: Sequence[str]) -> list[float]:
         """Values by name (SI units)."""
@@ -150,6 +161,7 @@ class TranslatedUnit(HitchUnit):
     ) -> None:
         super().__init__(name, description, slave, messages)
         self.identity = identity(description, use, translated)
+        self.interpolates = self.interpolates and use == "cs" and description.fmiVersion == "2.0"
         self._translated = translated
         given = [name for name in VARIABLES if name in translated.channels]
         self._read = [translated.channels[name].reference for name in given]

@@ -236,11 +236,11 @@ def test_pictures_have_units_and_legends_off_the_curves(brake: Brake) -> None:
 
 
 BAD = [
-    ([], "Missing argument"),
-    (["one.fmu"], "one.fmu alone cannot be compared: two FMUs at least are needed"),
+    ([], "nothing cannot be compared: two files at least are needed"),
+    (["one.fmu"], "one.fmu alone cannot be compared: two files at least are needed"),
     (["no.fmu", "none.fmu"], "no.fmu is not there"),
     (["text.fmu", "text.fmu"], "an FMU is a zip archive"),
-    (["text.fmu"] * 27, "27 FMUs are too many: 26 at most"),
+    (["text.fmu"] * 27, "27 files are too many: 26 at most"),
     (["text.fmu", "text.fmu", "--figure", "12"], "there is no figure '12'; allowed: "),
     (["text.fmu", "text.fmu", "--funnel", "0"], "funnel = 0 is not allowed"),
     (["text.fmu", "text.fmu", "--funnel", "nan"], "funnel = nan is not allowed"),

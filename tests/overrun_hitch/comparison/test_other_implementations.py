@@ -12,7 +12,7 @@ from lxml import etree
 from overrun_hitch import cli
 from overrun_hitch.comparison.crosscheck import Crosscheck, crosscheck
 from overrun_hitch.comparison.distances import Allowed
-from overrun_hitch.comparison.sources import Asked, opened_sources
+from overrun_hitch.comparison.sources import Asked, Manoeuvre, opened_sources
 from overrun_hitch.fmu.opening import opened_foreign
 from overrun_hitch.fmu.settings import Settings
 from overrun_hitch.foreign.mapping import read_mapping
@@ -25,7 +25,7 @@ from tests.overrun_hitch.foreign.hand_made import hand_made
 def checked(*files: Asked, figures: list[str]) -> Iterator[Crosscheck]:
     with opened_sources(list(files), 60.0) as sources:
         for figure in figures:
-            yield crosscheck(FIGURES[figure], sources, Settings(), Allowed())
+            yield crosscheck(Manoeuvre(FIGURES[figure], Settings()), sources, Allowed())
 
 
 def test_a_hand_made_fmu_agrees_in_all_figures_and_a_stiffer_one_in_none(car_trailer_fmu: Path) -> None:

@@ -17,7 +17,7 @@ import pytest
 from overrun_hitch import cli
 from overrun_hitch.comparison.crosscheck import crosscheck
 from overrun_hitch.comparison.distances import Allowed
-from overrun_hitch.comparison.sources import UnitSource
+from overrun_hitch.comparison.sources import Manoeuvre, UnitSource
 from overrun_hitch.experiments import step_brake as experiment
 from overrun_hitch.fmu.guest_unit import guest_unit
 from overrun_hitch.fmu.opening import opened_unit
@@ -124,7 +124,7 @@ def test_two_fmus_that_share_what_a_process_has_one_of_still_differ(
     assert cli.main(command) == 1
     assert "B differs from A in figure 8: " in capfd.readouterr().out
     with opened_unit(fmus[0]) as first, opened_unit(fmus[1]) as second:  # where they meet, one hides the other
-        check = crosscheck(FIGURES["8"], [UnitSource(first), UnitSource(second)], Settings(), Allowed())
+        check = crosscheck(Manoeuvre(FIGURES["8"], Settings()), [UnitSource(first), UnitSource(second)], Allowed())
     assert check.comparisons[0].differing == []
 
 
