@@ -218,7 +218,7 @@ def test_bad_input_is_one_line_and_status_2(
     assert [path.name for path in tmp_path.iterdir()] == ["trace.csv"]
 
 
-@pytest.mark.filterwarnings("ignore::DeprecationWarning:canmatrix")  # asammdf's affair
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")  # those of asammdf, when it is imported
 @pytest.mark.parametrize("suffix", [".parquet", ".mf4"])
 def test_forms_of_the_extra(suffix: str, oracle: Columns, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     csv, trace = tmp_path / "a.csv", tmp_path / f"a{suffix}"
