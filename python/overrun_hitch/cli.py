@@ -21,6 +21,7 @@ from overrun_hitch.commands.crosscheck import crosscheck
 from overrun_hitch.commands.fit import fit
 from overrun_hitch.commands.optimise import optimise
 from overrun_hitch.commands.paper import paper
+from overrun_hitch.commands.reference import reference
 from overrun_hitch.commands.report import report
 from overrun_hitch.commands.run import run
 from overrun_hitch.commands.sensitivity import sensitivity
@@ -95,6 +96,7 @@ def _hitch(
 app.command()(run)
 app.command()(stability)
 app.command()(crosscheck)
+app.command()(reference)
 app.command()(couple)
 app.command()(sweep)
 app.command()(sensitivity)

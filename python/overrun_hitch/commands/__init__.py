@@ -1,3 +1,15 @@
 """The commands of `hitch`: options in, exit status out."""
 
-__all__ = ["couple", "crosscheck", "fit", "optimise", "paper", "report", "run", "sensitivity", "stability", "sweep"]
+__all__ = [
+    "couple",
+    "crosscheck",
+    "fit",
+    "optimise",
+    "paper",
+    "reference",
+    "report",
+    "run",
+    "sensitivity",
+    "stability",
+    "sweep",
+]

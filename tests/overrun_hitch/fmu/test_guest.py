@@ -174,7 +174,7 @@ def test_every_command_that_runs_fmus_has_a_time_limit() -> None:
         if command.callback
     }
     with_fmus = {name for name, known in options.items() if {"fmu", "files_", "whole"} & known.keys()}
-    assert with_fmus == {"run", "crosscheck", "couple", "optimise", "sensitivity", "sweep", "paper", "report"}
+    assert with_fmus == {*"run crosscheck couple optimise sensitivity sweep paper reference report".split()}
     assert {name for name, known in options.items() if "time_limit" in known} == with_fmus
 
 
