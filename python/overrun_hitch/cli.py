@@ -22,6 +22,7 @@ from overrun_hitch.commands.crosscheck import crosscheck
 from overrun_hitch.commands.fit import fit
 from overrun_hitch.commands.optimise import optimise
 from overrun_hitch.commands.paper import paper
+from overrun_hitch.commands.reference import reference
 from overrun_hitch.commands.report import report
 from overrun_hitch.commands.run import run
 from overrun_hitch.commands.sensitivity import sensitivity
@@ -29,6 +30,7 @@ from overrun_hitch.commands.stability import stability
 from overrun_hitch.commands.sweep import sweep
 from overrun_hitch.extras import what_is_missing_told
 from overrun_hitch.parameters import HitchError
+from overrun_hitch.show.words import printable
 
 app = typer.Typer(
     help="Longitudinal oscillations of a car and its overrun-braked trailer (Sharp 1982).",
@@ -59,7 +61,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 70  # EX_SOFTWARE of sysexits.h
     else:
         return status if isinstance(status, int) else 0
-    _arrives(f"hitch: {' '.join(message.split())}", sys.stderr)
+    _arrives(f"hitch: {printable(' '.join(message.split()))}", sys.stderr)
     return 2
 
 
@@ -97,6 +99,7 @@ def _hitch(
 app.command()(run)
 app.command()(stability)
 app.command()(crosscheck)
+app.command()(reference)
 app.command()(couple)
 app.command()(sweep)
 app.command()(sensitivity)

@@ -75,6 +75,11 @@ def scenario_of(result: xr.Dataset) -> Scenario:
     )
 
 
+def missing(result: xr.Dataset) -> tuple[str, ...]:
+    """The VARIABLES that what was run has not, and whose samples are NaN for it."""
+    return tuple(filter(None, str(result.attrs.get("missing", "")).split(", ")))
+
+
 def values(result: xr.Dataset, name: str) -> Floats:
     """The samples (n,) of a variable or of "time"."""
     return np.asarray(result[name].values, dtype=np.float64)

@@ -24,7 +24,7 @@ COLUMNS = {
 
 
 def fit(
-    trace: Annotated[Path, typer.Argument(metavar="TRACE.csv", help="Measured columns under one line of names.")],
+    trace: Annotated[Path, typer.Argument(metavar="TRACE", help="Measured columns: CSV, MAT, Parquet or MDF.")],
     time: Annotated[str | None, typer.Option(metavar="COLUMN", help="Time (time).")] = None,
     compression: Annotated[
         str | None, typer.Option(metavar="COLUMN", help="Travel, positive pushed in (compression).")

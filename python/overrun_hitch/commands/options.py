@@ -5,12 +5,15 @@ from __future__ import annotations
 import hashlib
 import re
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from overrun_hitch.parameters import HitchError, Parameters
 from overrun_hitch.toml_file import read_toml
+
+if TYPE_CHECKING:
+    from overrun_hitch.fmu.settings import Use
 
 LONGEST_STEM = 120  # characters; file systems allow 255 bytes with suffix
 
@@ -20,6 +23,13 @@ ParametersOption = Annotated[
     typer.Option("--parameters", metavar="FILE.toml", help="Change the parameters in this file (SI); --set wins."),
 ]
 TimeLimitOption = Annotated[float, typer.Option("--time-limit", help="Time in s that a run of an FMU may take.")]
+MapOption = Annotated[
+    Path | None, typer.Option("--map", metavar="FILE.toml", help="Names, signs and units in the FMU of --fmu.")
+]
+TypeOption = Annotated[
+    str | None,
+    typer.Option("--type", metavar="cs|me", help="Co-Simulation (where it is offered) or Model Exchange."),
+]
 FmuOption = Annotated[Path | None, typer.Option(help="FMU file to run instead of our own.")]
 
 
@@ -70,6 +80,13 @@ def file_stem(name: str) -> str:
     if len(stem) <= LONGEST_STEM:
         return stem
     return f"{stem[: LONGEST_STEM - 9]}-{hashlib.sha256(name.encode()).hexdigest()[:8]}"
+
+
+def asked_use(text: str | None) -> Use | None:
+    """What --type asks for. HitchError for anything but cs and me."""
+    if text is not None and text not in ("cs", "me"):
+        raise HitchError(f"--type {text!r:.40} is not allowed; allowed: cs (Co-Simulation) and me (Model Exchange)")
+    return text  # type: ignore[return-value]
 
 
 def chosen_fmu(fmu: Path | None) -> Path:

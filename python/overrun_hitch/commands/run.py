@@ -10,10 +10,13 @@ import typer
 from overrun_hitch.commands.hints import hint
 from overrun_hitch.commands.options import (
     FmuOption,
+    MapOption,
     ParametersOption,
     SetOption,
     TimeLimitOption,
+    TypeOption,
     asked_changes,
+    asked_use,
     chosen_fmu,
     file_stem,
 )
@@ -31,6 +34,8 @@ def run(
     tolerance: Annotated[float, typer.Option(help="Relative tolerance of the integrator.")] = 1e-6,
     step: Annotated[float, typer.Option(help="Communication step in s.")] = 0.01,
     fmu: FmuOption = None,
+    map_: MapOption = None,
+    type_: TypeOption = None,
     time_limit: TimeLimitOption = 60.0,
     output: Annotated[Path, typer.Option(help="Folder for the files written.")] = Path("build/run"),
 ) -> int:
@@ -42,9 +47,11 @@ def run(
     # Imported here, because fmpy, xarray and matplotlib would slow down `hitch --help` and wrong options.
     from overrun_hitch.fmu.guest_unit import guest_file
     from overrun_hitch.fmu.settings import Settings
+    from overrun_hitch.foreign.mapping import NO_NAMES, read_mapping
 
     settings = Settings(relative_tolerance=tolerance, communication_step=step)
-    with guest_file(chosen_fmu(fmu), time_limit) as unit:  # which gets ready while the rest is imported
+    names, use = read_mapping(map_) if map_ else NO_NAMES, asked_use(type_)
+    with guest_file(chosen_fmu(fmu), time_limit, names, use) as unit:  # which gets ready while the rest is imported
         from overrun_hitch import results
         from overrun_hitch.comparison import theory_table
         from overrun_hitch.comparison.theory import compare

@@ -1,3 +1,13 @@
-"""Theory against simulation, and FMUs against each other."""
+"""Theory against simulation, and files of other people against each other."""
 
-__all__ = ["crosscheck", "crosscheck_figures", "crosscheck_table", "theory", "theory_table"]
+__all__ = [
+    "crosscheck",
+    "crosscheck_figures",
+    "crosscheck_table",
+    "distances",
+    "proposal",
+    "record",
+    "sources",
+    "theory",
+    "theory_table",
+]

@@ -1,85 +1,54 @@
-"""The same step brake on several FMUs that should be the same model, and how far each is from the first, A.
+"""The same step brake by several files that should be the same model, and how far each is from the first, A.
 
-What may differ, and why:
-
-- traces: a funnel (see funnel.py) of 0.1 % of the variable's range in A, and of 0.1 ms to either side. Our FMU at
-  tolerances from 1e-3 to 1e-6 stays within 0.02 %; with a damper or a spring 1 % off some variable of every figure
-  leaves it. 0.1 ms is a fortieth of the fastest time constant (the wheels' at 40 m/s): a steep flank is no false alarm.
-- growth rate 0.001 1/s + 0.1 %, frequency 0.01 %: about ten times closer than theory has to come (theory.py), because
-  both sides solve the same equations. Judged where both drawbars stay in compression once there; else reported.
-- times at which the drawbar passes 0 and eps: the funnel's width, one by one, in the same order.
+What may differ, and why, stands in distances.py and numbers.py.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import zip_longest
+from dataclasses import dataclass, replace
 from string import ascii_uppercase
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from overrun_hitch.comparison.theory import shunting
-from overrun_hitch.decimals import decimals
-from overrun_hitch.experiments.step_brake import brake
-from overrun_hitch.fmu.settings import Settings
-from overrun_hitch.fmu.unit import AnyUnit
-from overrun_hitch.measure.funnel import Funnel, funnel
+from overrun_hitch.comparison.alignment import Alignment, align
+from overrun_hitch.comparison.distances import Allowed, Distance, distances
+from overrun_hitch.comparison.motion import with_motion
+from overrun_hitch.comparison.numbers import measured_numbers, passage_numbers, shunting_numbers
+from overrun_hitch.comparison.sources import Manoeuvre, Source, TheorySource, TraceSource, UnitSource
+from overrun_hitch.comparison.theory import compare
+from overrun_hitch.experiments.step_brake import car_alone
 from overrun_hitch.measure.judged import Judged
-from overrun_hitch.measure.oscillation import NoOscillation, Oscillation
-from overrun_hitch.measure.passages import Passage, passages
-from overrun_hitch.parameters import HitchError, Quantities, Scenario, quantity
-from overrun_hitch.results import VARIABLES, values
+from overrun_hitch.measure.resampling import is_even
+from overrun_hitch.parameters import HitchError, Scenario
+from overrun_hitch.results import values
 
 Floats = NDArray[np.float64]
 
-LABELS = ascii_uppercase  # of the FMUs, in the order in which they were given; A is the reference
-
-GROWTH_RATE_ALLOWED = (0.001, 0.001)  # 1/s, and relative
-FREQUENCY_ALLOWED = 1e-4  # relative
-
-
-class Allowed(Quantities):
-    """How far a trace may be from A's."""
-
-    funnel: float = quantity(1e-3, "", "half height of the funnel, relative to the variable's range", gt=0.0, le=1.0)
-    funnel_time: float = quantity(1e-4, "s", "half width of the funnel", ge=0.0, le=1.0)
-
-
-@dataclass(frozen=True)
-class Distance:
-    """One variable of one FMU from A's, over the time that both ran. NaN where a trace is not finite."""
-
-    variable: str
-    unit: str
-    largest: float  # distance, in `unit`
-    at: float  # s, where it is largest
-    range: float  # of A's trace, in `unit`
-    outside: float  # farthest beyond the funnel, in `unit`; 0 inside
-    leaves: float  # s, where the trace first leaves the funnel; NaN inside
-
-    @property
-    def differs(self) -> bool:
-        """True where the trace is not in the funnel from start to end."""
-        return self.outside != 0.0
-
-    @property
-    def verdict(self) -> str:
-        """ "agrees" or "differs"."""
-        return "differs" if self.differs else "agrees"
+LABELS = ascii_uppercase  # of the files, in the order in which they were given; A is the reference
+END = "end of the run"
+NOISE_ALLOWED = 5.0  # standard deviations: one of two million samples of white noise lies beyond
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """One FMU against A."""
+    """One of the others against A."""
 
     label: str
-    distances: tuple[Distance, ...]  # in the order of results.VARIABLES
-    numbers: tuple[Judged, ...]  # growth rate, frequency, end of the run
-    passages: tuple[Judged, ...]  # times (s) at which the drawbar passes 0 or eps
+    distances: tuple[Distance, ...] = ()  # in the order of results.VARIABLES
+    numbers: tuple[Judged, ...] = ()  # growth rate, frequency, end of the run
+    passages: tuple[Judged, ...] = ()  # times (s) at which the drawbar passes 0 or eps
+    runs: tuple[xr.Dataset, ...] = ()  # A's and its own, at the same times
+    alignment: Alignment | None = None  # of a measured trace
+    failure: str = ""  # why there is nothing to compare
+
+    @property
+    def not_compared(self) -> list[str]:
+        """The names of the variables that one of the two has not."""
+        return [distance.variable for distance in self.distances if distance.not_judged]
 
     @property
     def differing(self) -> list[str]:
@@ -91,21 +60,96 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Crosscheck:
-    """One scenario on all FMUs."""
+    """One scenario on all of them."""
 
     scenario: Scenario
-    runs: tuple[xr.Dataset, ...]  # as LABELS
+    reference: xr.Dataset | None  # A's run; None for theory
     comparisons: tuple[Comparison, ...]  # of all but A
 
 
-def compare_units(scenario: Scenario, units: Sequence[AnyUnit], settings: Settings, allowed: Allowed) -> Crosscheck:
-    """Run `scenario` on each unit and compare with the first. HitchError for a file that is no such FMU.
+def crosscheck(asked: Manoeuvre, sources: Sequence[Source], allowed: Allowed, measured: bool = False) -> Crosscheck:
+    """Run the scenario on each and compare with the first. HitchError for what is wrong with that one.
 
-    Units in one process may share more than their names; see guest_file.
+    `measured`: traces in files are brought in line with A's time, and their noise is allowed for.
     """
-    runs = tuple(brake(unit, scenario, settings) for unit in units)
-    others = zip(LABELS[1:], runs[1:], strict=False)
-    return Crosscheck(scenario, runs, tuple(compare_runs(runs[0], run, label, allowed) for label, run in others))
+    first, *others = sources
+    reference = None if isinstance(first, TheorySource) else first.run(asked)
+    if measured and not isinstance(first, UnitSource):
+        raise HitchError("--measured needs an FMU as the reference, A, to bring the others in line with")
+
+    def comparison(other: Source, label: str) -> Comparison:
+        if reference is None:
+            return _with_theory(asked, other, label)
+        if measured and isinstance(other, TraceSource):
+            return _measured(asked, first, reference, other, label, allowed)
+        return _simulated(asked, first, reference, other, label, allowed)
+
+    comparisons = []
+    for label, other in zip(LABELS[1:], others, strict=False):
+        try:
+            comparisons.append(comparison(other, label))
+        except HitchError as error:  # what goes wrong with one of the others is its own affair
+            comparisons.append(Comparison(label, failure=str(error)))
+    return Crosscheck(asked.scenario, reference, tuple(comparisons))
+
+
+def _simulated(
+    asked: Manoeuvre, first: Source, reference: xr.Dataset, other: Source, label: str, allowed: Allowed
+) -> Comparison:
+    """At the times of a trace, if one of the two is one: a simulation can be asked for any."""
+    if isinstance(other, TraceSource):
+        run = other.run(asked, _within(reference, other) if isinstance(first, TraceSource) else None)
+        reference = first.run(asked, values(run, "time"))
+    else:
+        run = other.run(asked, values(reference, "time") if isinstance(first, TraceSource) else None)
+    found = compare_runs(reference, run, label, allowed)
+    if not {TraceSource} & {type(first), type(other)}:
+        return found
+    if not is_even(values(found.runs[0], "time")):
+        even = _even_grid(found.runs[0], asked)
+        numbers = compare_runs(first.run(asked, even), other.run(asked, even), label, allowed).numbers
+        found = replace(found, numbers=numbers)
+    ends = [number for number in found.numbers if number.quantity != END]  # a trace ends where it ends
+    return replace(found, numbers=tuple(ends))
+
+
+def _within(reference: xr.Dataset, other: TraceSource) -> Floats:
+    """The times of one trace at which there is another one."""
+    time, ends = values(reference, "time"), other.trace.time[[0, -1]]
+    return np.asarray(time[(time >= ends[0]) & (time <= ends[1])])
+
+
+def _even_grid(run: xr.Dataset, asked: Manoeuvre) -> Floats:
+    """Multiples of the communication step within the run."""
+    h, time = asked.settings.communication_step, values(run, "time")
+    return np.asarray(np.arange(math.ceil(time[0] / h - 1e-9), math.floor(time[-1] / h + 1e-9) + 1) * h)
+
+
+def _measured(
+    asked: Manoeuvre, first: Source, reference: xr.Dataset, other: TraceSource, label: str, allowed: Allowed
+) -> Comparison:
+    alignment = align(reference, other.trace)
+    run = TraceSource(other.trace.shifted(alignment.shift)).run(asked)
+    own = first.run(asked, values(run, "time"))
+    noise = {name: NOISE_ALLOWED * sigma for name, sigma in alignment.noise.items()}
+    wider = allowed.model_copy(update={"funnel_time": allowed.funnel_time + alignment.error})
+    even = _even_grid(run, asked)
+    at_even = TraceSource(other.trace.shifted(alignment.shift)).run(asked, even)
+    return Comparison(
+        label=label,
+        distances=distances(own, run, label, wider, noise),
+        numbers=measured_numbers(first.run(asked, even), at_even),
+        runs=(own, run),
+        alignment=alignment,
+    )
+
+
+def _with_theory(asked: Manoeuvre, other: Source, label: str) -> Comparison:
+    run = other.run(asked)
+    alone = None
+    if isinstance(other, UnitSource):
+        alone = other.run(replace(asked, scenario=car_alone(asked.scenario)))
+    return Comparison(label, numbers=tuple(compare(run, alone)), runs=(run, run))
 
 
 def compare_runs(reference: xr.Dataset, run: xr.Dataset, label: str, allowed: Allowed) -> Comparison:
@@ -116,82 +160,14 @@ def compare_runs(reference: xr.Dataset, run: xr.Dataset, label: str, allowed: Al
     for one in (reference, run):
         if one.sizes["time"] < 2:
             raise HitchError(f"{one.attrs['fmu']} does not run: it is at rest at t = 0")
-    ends = Judged("end of the run", "s", float(reference["time"][-1]), float(run["time"][-1]), 0.0)
+    ends = Judged(END, "s", float(reference["time"][-1]), float(run["time"][-1]), 0.0)
     both = slice(0, min(reference.sizes["time"], run.sizes["time"]))
     reference, run = reference.isel(time=both), run.isel(time=both)
+    a, b = with_motion(reference, run), with_motion(run, reference)
     return Comparison(
         label=label,
-        distances=tuple(_distance(reference, run, name, allowed) for name in VARIABLES),
-        numbers=(*_shunting_numbers(reference, run, label), ends),
-        passages=_passage_numbers(_passages(reference), _passages(run), allowed),
+        distances=distances(reference, run, label, allowed),
+        numbers=(*shunting_numbers(a, b, label), ends),
+        passages=passage_numbers(a, b, allowed),
+        runs=(reference, run),
     )
-
-
-def funnel_around(reference: xr.Dataset, run: xr.Dataset, name: str, allowed: Allowed) -> Funnel:
-    """The funnel around a variable of `reference`, and where `run` leaves it; both finite."""
-    trace = values(reference, name)
-    extent = float(np.ptp(trace)) or float(np.abs(trace).max()) or 1.0  # a constant has no range, nothing no size
-    height, width = allowed.funnel * extent, allowed.funnel_time
-    return funnel(values(reference, "time"), trace, values(run, name), height=height, width=width)
-
-
-def _distance(reference: xr.Dataset, run: xr.Dataset, name: str, allowed: Allowed) -> Distance:
-    time, a, b = decimals(values(reference, "time")), values(reference, name), values(run, name)
-    unit, _ = VARIABLES[name]
-    if not np.isfinite([a, b]).all():
-        return Distance(name, unit, *[math.nan] * 5)
-    distance = np.abs(b - a)
-    outside = funnel_around(reference, run, name, allowed).outside
-    return Distance(
-        variable=name,
-        unit=unit,
-        largest=float(distance.max()),
-        at=time[distance.argmax()],
-        range=float(np.ptp(a)),
-        outside=float(outside.max()),
-        leaves=time[(outside > 0.0).argmax()] if outside.any() else math.nan,
-    )
-
-
-def _shunting_numbers(reference: xr.Dataset, run: xr.Dataset, label: str) -> tuple[Judged, Judged]:
-    (a, reason), (b, other_reason) = _shunting(reference), _shunting(run)
-    reason = reason or (other_reason and f"{label}: {other_reason}")
-    (growth, frequency), (other_growth, other_frequency) = _rates(a), _rates(b)
-    growth_allowed = GROWTH_RATE_ALLOWED[0] + GROWTH_RATE_ALLOWED[1] * abs(growth)
-    return (
-        Judged("shunting growth", "1/s", growth, other_growth, growth_allowed, reason),
-        Judged("shunting frequency", "Hz", frequency, other_frequency, FREQUENCY_ALLOWED * frequency, reason),
-    )
-
-
-def _shunting(run: xr.Dataset) -> tuple[Oscillation | NoOscillation, str]:
-    """The oscillation, and "" or why it is not judged."""
-    if not (_is_finite(run) and (run["v_car"] > 0.0).all()):  # what theory needs to say where start-up is over
-        return NoOscillation(""), "the traces are not those of a vehicle that rolls forward"
-    found, reason = shunting(run)
-    return found, reason or (found.reason if isinstance(found, NoOscillation) else "")
-
-
-def _rates(found: Oscillation | NoOscillation) -> tuple[float, float]:
-    """Growth rate (1/s) and frequency (Hz)."""
-    return (found.growth_rate, found.frequency) if isinstance(found, Oscillation) else (math.nan, math.nan)
-
-
-def _passages(run: xr.Dataset) -> tuple[Passage, ...]:
-    return passages(run) if _is_finite(run) else ()
-
-
-def _is_finite(run: xr.Dataset) -> bool:
-    return all(np.isfinite(values(run, name)).all() for name in VARIABLES)
-
-
-def _passage_numbers(a: Sequence[Passage], b: Sequence[Passage], allowed: Allowed) -> tuple[Judged, ...]:
-    """Each passage of A with that of the other FMU, in order; those of one alone, or of different kinds, differ."""
-    rows: list[tuple[str, float, float]] = []
-    for ours, theirs in zip_longest(a, b):
-        if ours and theirs and ours.kind == theirs.kind:
-            rows.append((ours.kind, ours.time, theirs.time))
-        else:
-            rows += [(ours.kind, ours.time, math.nan)] if ours else []
-            rows += [(theirs.kind, math.nan, theirs.time)] if theirs else []
-    return tuple(Judged(f"passes {kind}", "s", here, there, allowed.funnel_time) for kind, here, there in rows)

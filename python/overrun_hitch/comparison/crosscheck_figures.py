@@ -1,4 +1,4 @@
-"""Pictures of a crosscheck: compression of all FMUs on one another, and its difference from A's in the funnel."""
+"""Pictures of a crosscheck: compression of all files on one another, and its difference from A's in the funnel."""
 
 from __future__ import annotations
 
@@ -13,9 +13,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from overrun_hitch.comparison.crosscheck import LABELS, Allowed, Crosscheck, funnel_around
+from overrun_hitch.comparison.crosscheck import Crosscheck
+from overrun_hitch.comparison.distances import Allowed, funnel_around
 from overrun_hitch.results import values
 from overrun_hitch.show.traces import STYLE
+from overrun_hitch.show.words import printable
 
 Floats = NDArray[np.float64]
 
@@ -32,7 +34,7 @@ MILLI = 1000.0
 
 
 def names(fmus: Sequence[Path]) -> list[str]:
-    """What the FMUs are called in a picture: as much of the end of their paths as tells apart those of one name."""
+    """What the files are called in a picture: as much of the end of their paths as tells apart those of one name."""
     parts = [fmu.absolute().parts for fmu in fmus]
     return [str(Path(*one[-_needed(one, parts) :])) for one in parts]
 
@@ -44,27 +46,29 @@ def _needed(one: tuple[str, ...], others: Sequence[tuple[str, ...]]) -> int:
 
 
 def draw(check: Crosscheck, names: list[str], allowed: Allowed) -> Figure:
-    """Two panels for one scenario; `names` of the FMUs in the order of its runs."""
-    reference = check.runs[0]
+    """Two panels for one scenario; `names` of the files in their order, A's first."""
+    reference = check.reference
+    assert reference is not None  # theory has no traces to draw
     time, a = values(reference, "time"), values(reference, "compression")
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.4, 5.2), layout="constrained")
         figure.suptitle(f"{check.scenario.name[:1].upper()}{check.scenario.name[1:]}", fontsize=10)
         above, below = figure.subplots(2, 1, sharex=True)
         if np.isfinite(a).all():
-            funnel = funnel_around(reference, reference, "compression", allowed)
+            funnel = funnel_around(reference, a, "compression", allowed)
             below.fill_between(time, MILLI * (funnel.lower - a), MILLI * (funnel.upper - a), label="funnel", **BAND)
-        for i, run in enumerate(check.runs):
-            trace, line = values(run, "compression"), LINES[i % len(LINES)]
-            above.plot(values(run, "time"), trace, label=f"{LABELS[i]}  {_short(names[i])}", **line)
-            if i > 0:
-                both = min(len(a), len(trace))
-                below.plot(time[:both], MILLI * (trace[:both] - a[:both]), label=f"{LABELS[i]} less A", **line)
+        above.plot(time, a, label=f"A  {_short(names[0])}", **LINES[0])
+        for i, (name, comparison) in enumerate(zip(names[1:], check.comparisons, strict=True), start=1):
+            if comparison.runs:
+                expected, found = (values(run, "compression") for run in comparison.runs)
+                when, line = values(comparison.runs[1], "time"), LINES[i % len(LINES)]
+                above.plot(when, found, label=f"{comparison.label}  {_short(name)}", **line)
+                below.plot(when, MILLI * (found - expected), label=f"{comparison.label} less A", **line)
         _label(above, "Compression (m)", columns=2)
         _label(below, "Difference (mm)", columns=5)
         below.set_xlabel("Time (s)")
         below.set_xlim(0.0, float(time[-1]))
-        # An FMU that runs away must not flatten the others.
+        # One that runs away must not flatten the others.
         _limit(above, a, 3.0 * float(np.ptp(a)))
         _limit(below, np.zeros(1), MILLI * float(np.ptp(a)))
         figure.align_ylabels()
@@ -87,4 +91,4 @@ def _limit(axes: Axes, around: Floats, farthest: float) -> None:
 
 def _short(name: str) -> str:
     shortened = name if len(name) <= 32 else f"{name[:14]}...{name[-15:]}"
-    return shortened.replace("$", r"\$")  # matplotlib would set it as a formula
+    return printable(shortened).replace("$", r"\$")  # matplotlib would set it as a formula

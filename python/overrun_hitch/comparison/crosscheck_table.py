@@ -1,26 +1,28 @@
-"""What a crosscheck says: tables in the terminal, and all of its numbers as one JSON document."""
+"""What a crosscheck says in the terminal."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict
 from itertools import starmap
 from pathlib import Path
-from typing import Any
 
 from rich.console import Console
 
-from overrun_hitch.comparison.crosscheck import LABELS, Allowed, Comparison, Crosscheck, Distance
-from overrun_hitch.fmu.settings import Settings
+from overrun_hitch.comparison.alignment import Alignment
+from overrun_hitch.comparison.crosscheck import Comparison, Crosscheck
+from overrun_hitch.comparison.distances import Allowed, Distance
+from overrun_hitch.comparison.numbers import FREQUENCY_ALLOWED, GROWTH_RATE_ALLOWED
+from overrun_hitch.comparison.record import Compared
 from overrun_hitch.measure.judged import Judged
-from overrun_hitch.results import values
+from overrun_hitch.results import VARIABLES, values
 from overrun_hitch.show.table import Column, Numbers, Row, coloured, console, number, show_rows, show_written, small
+from overrun_hitch.show.words import printable
 
 MOST_PASSAGES = 6  # in a table; figure 6a has 22
 DISTANCES = (
     *(Column(heading) for heading in ("", "variable", "unit")),
-    *(Numbers(heading) for heading in ("distance", "of range", "at (s)", "leaves (s)")),
+    *(Numbers(heading) for heading in ("distance", "of range", "at (s)", "rms")),
     Column("verdict"),
 )
 NUMBERS = (
@@ -30,88 +32,87 @@ NUMBERS = (
 )
 
 
-def show(checks: Sequence[Crosscheck], fmus: Sequence[Path], allowed: Allowed, paths: Sequence[Path]) -> None:
-    """Print what the labels mean, two tables a figure, the verdict on each FMU and the files written."""
+def show(checks: Sequence[Crosscheck], compared: Sequence[Compared], allowed: Allowed, paths: Sequence[Path]) -> None:
+    """Print what the labels mean, two tables a figure, the verdict on each file and the files written."""
     out = console()
-    for label, fmu in zip(LABELS, fmus, strict=False):
-        out.print(f"{label}  {fmu}", markup=False, soft_wrap=True)
+    for one in compared:
+        _say(out, f"{one.label}  {one.name}")
+        for note in one.notes:
+            _say(out, f"   {note}")
     out.print(
         f"funnel: {100.0 * allowed.funnel:g} % of the range in A up and down, "
         f"{1000.0 * allowed.funnel_time:g} ms to either side"
     )
+    absolute, relative = GROWTH_RATE_ALLOWED
+    out.print(
+        f"growth rate: {absolute:g} 1/s + {100.0 * relative:g} %, frequency: {100.0 * FREQUENCY_ALLOWED:g} %; why: "
+        "docs/crosscheck.md",
+        soft_wrap=True,
+    )
     for check in checks:
         _show_figure(out, check)
     out.print()
-    for label, comparisons in zip(LABELS[1:], zip(*(check.comparisons for check in checks), strict=True), strict=False):
-        differing = {check.scenario.name: c.differing for check, c in zip(checks, comparisons, strict=True)}
-        agreeing = [name for name, names in differing.items() if not names]
-        if agreeing:
-            out.print(f"{label} agrees with A in {', '.join(agreeing)}", soft_wrap=True)
-        for name, names in differing.items():
-            if names:
-                out.print(f"{label} differs from A in {name}: {', '.join(names)}", soft_wrap=True)
+    for place, one in enumerate(compared[1:]):
+        _show_verdict(out, one.label, {check.scenario.name: check.comparisons[place] for check in checks})
     show_written(out, paths)
 
 
-def document(
-    checks: Sequence[Crosscheck], fmus: Sequence[Path], settings: Settings, allowed: Allowed, paths: Sequence[Path]
-) -> dict[str, Any]:
-    """Every number and verdict for JSON, SI units. Its keys: docs/openmodelica.md."""
-    guids = [run.attrs["guid"] for run in checks[0].runs]
-    return {
-        "agrees": not any(comparison.differing for check in checks for comparison in check.comparisons),
-        "fmus": [
-            {"label": label, "path": str(fmu), "guid": guid}
-            for label, fmu, guid in zip(LABELS, fmus, guids, strict=False)
-        ],
-        "settings": {**settings.model_dump(), **allowed.model_dump()},
-        "figures": [
-            {
-                "name": check.scenario.name,
-                "brake_torque": check.scenario.brake_torque,
-                "duration": check.scenario.duration,
-                "parameters": check.scenario.parameters.model_dump(),
-                "comparisons": [_comparison(comparison) for comparison in check.comparisons],
-            }
-            for check in checks
-        ],
-        "files": [str(path) for path in paths],
-    }
+def _say(out: Console, line: str) -> None:
+    """A line that may have other people's words in it."""
+    out.print(printable(line), markup=False, soft_wrap=True)
 
 
-def _comparison(comparison: Comparison) -> dict[str, Any]:
-    def row(judged: Distance | Judged) -> dict[str, Any]:
-        return {**asdict(judged), "verdict": judged.verdict}
+def aligned(found: Alignment) -> str:
+    """What was found of a measured trace, in a sentence."""
+    noises = ", ".join(f"{name} {small(sigma)} {VARIABLES[name][0]}" for name, sigma in found.noise.items())
+    return (
+        f"its time is {found.shift:.4f} s late, with 95 % confidence to {small(found.error)} s; "
+        f"noise (standard deviation): {noises}"
+    )
 
-    def pair(judged: Judged) -> dict[str, Any]:
-        return {**row(judged), "difference": judged.difference}
 
-    return {
-        "fmu": comparison.label,
-        "agrees": not comparison.differing,
-        "variables": [row(distance) for distance in comparison.distances],
-        "numbers": [pair(judged) for judged in comparison.numbers],
-        "passages": [pair(judged) for judged in comparison.passages],
-    }
+def _show_verdict(out: Console, label: str, comparisons: dict[str, Comparison]) -> None:
+    agreeing: dict[tuple[str, ...], list[str]] = {}
+    failing: dict[str, list[str]] = {}
+    for name, comparison in comparisons.items():
+        if comparison.failure:
+            failing.setdefault(comparison.failure, []).append(name)
+        elif not comparison.differing:
+            agreeing.setdefault(tuple(comparison.not_compared), []).append(name)
+    for absent, figures in agreeing.items():
+        but = f" in all that can be compared; not compared: {', '.join(absent)}" if absent else ""
+        _say(out, f"{label} agrees with A in {', '.join(figures)}{but}")
+    for name, comparison in comparisons.items():
+        if comparison.differing:
+            but = f"; not compared: {', '.join(comparison.not_compared)}" if comparison.not_compared else ""
+            _say(out, f"{label} differs from A in {name}: {', '.join(comparison.differing)}{but}")
+            for row in comparison.distances:
+                if row.hint:
+                    _say(out, f"   {row.variable}: {row.hint}")
+    for failure, figures in failing.items():
+        _say(out, f"{label} could not be compared in {', '.join(figures)}: {failure}")
 
 
 def _show_figure(out: Console, check: Crosscheck) -> None:
-    last = float(values(check.runs[0], "time")[-1])
+    last = check.scenario.duration if check.reference is None else float(values(check.reference, "time")[-1])
     speed = check.scenario.parameters.V_0
     out.print(f"\n{check.scenario.name}: {check.scenario.brake_torque:g} N.m at {speed:g} m/s, {last:g} s")
-    distances = [(c.label, distance) for c in check.comparisons for distance in c.distances]
+    distances = [(c.label, row) for c in check.comparisons for row in c.distances if not row.not_judged]
     numbers = [(c.label, judged) for c in check.comparisons for judged in (*c.numbers, *_farthest(c.passages))]
-    show_rows(out, DISTANCES, starmap(_distance_cells, distances), starmap(_distance_sentence, distances))
+    if distances:
+        show_rows(out, DISTANCES, starmap(_distance_cells, distances), starmap(_distance_sentence, distances))
     show_rows(out, NUMBERS, starmap(_number_cells, numbers), starmap(_number_sentence, numbers))
     for c in check.comparisons:
+        if c.alignment:
+            _say(out, f"{c.label}: {aligned(c.alignment)}")
         if len(c.passages) > MOST_PASSAGES:
             out.print(f"{c.label}: of {len(c.passages)} drawbar passages the {MOST_PASSAGES} farthest apart")
     for reason in dict.fromkeys(judged.not_judged for _, judged in numbers if judged.not_judged):
-        out.print(f"not judged: {reason}")
+        _say(out, f"not judged: {reason}")
 
 
 def _distance_cells(label: str, row: Distance) -> Row:
-    numbers = (small(row.largest), _percent(row), number(row.at, 2), number(row.leaves, 2))
+    numbers = (small(row.largest), _percent(row), number(row.at, 2), small(row.rms))
     return (label, row.variable, row.unit, *numbers, coloured(row.verdict))
 
 

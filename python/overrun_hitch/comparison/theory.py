@@ -24,11 +24,12 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 
+from overrun_hitch.comparison.motion import with_motion
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.measure.oscillation import NoOscillation, Oscillation, fitting, measure
 from overrun_hitch.measure.passages import compressed_from
 from overrun_hitch.parameters import HitchError, Parameters
-from overrun_hitch.results import scenario_of, values
+from overrun_hitch.results import missing, scenario_of, values
 from overrun_hitch.theory.linear import ShuntingMode, shunting_mode, wheel_decay_rate
 from overrun_hitch.theory.steady import steady
 
@@ -39,6 +40,7 @@ FREQUENCY_ALLOWED = 0.002  # relative
 STEADY_ALLOWED = 1e-4  # relative, beside slip
 RATIO_ALLOWED = 0.0005
 
+NEEDED = ("v_car", "compression")
 WHEELS_SETTLED = math.log(1e6)  # the wheels' transient starts at the size of the motion itself
 DECAYED = math.log(100.0)  # 40 dB down the rest weighs nothing in the fit, and soon is the integrator's noise
 SETTLED = math.log(1e5)  # below what is allowed for steady values
@@ -71,12 +73,17 @@ class _Run:
         return int(np.searchsorted(-np.minimum.accumulate(exponent), measure))
 
 
-def compare(run: xr.Dataset, alone: xr.Dataset) -> list[Judged]:
-    """Judge a step brake; `alone` is the same one with the car alone (run.car_alone), for A_c.
+def compare(run: xr.Dataset, alone: xr.Dataset | None) -> list[Judged]:
+    """Judge a step brake; `alone` is the same one with the car alone (run.car_alone), for A_c, if there is one.
 
     Growth rate (1/s) and frequency (Hz) are means over the window that was fitted (NaN where no exponential fits),
     theory's of the eigenvalue at the simulated speed of the car; then the paper's A (m/s2), A / A_c (1) and D (m).
+    HitchError where the run has not what is NEEDED.
     """
+    absent = [name for name in NEEDED if name in missing(run)]
+    if absent:
+        raise HitchError(f"{run.attrs['fmu']} has no {', '.join(absent)}, which the comparison with theory needs")
+    run = with_motion(run, run)
     part = _settled_part(run)
     found = fitting(_oscillation(part))
     return [*_mode_rows(part, part.window, found), *_steady_rows(part, found, run, alone)]
@@ -86,6 +93,13 @@ def shunting(run: xr.Dataset) -> tuple[Oscillation | NoOscillation, str]:
     """The shunting oscillation as `compare` measures it, and "" or why linear theory does not hold meanwhile."""
     part = _settled_part(run)
     return _oscillation(part), "" if part.stays else part.not_linear
+
+
+def shunting_window(run: xr.Dataset) -> tuple[float, float]:
+    """When (s) `shunting` begins and ends to look."""
+    part = _settled_part(run)
+    seen = part.time[part.window]
+    return float(seen[0]), float(seen[-1])
 
 
 def _oscillation(part: _Run) -> Oscillation | NoOscillation:
@@ -111,11 +125,24 @@ def _settled_part(run: xr.Dataset) -> _Run:
         v_car=v_car,
         a_car=values(run, "a_car")[after],
         compression=compression[after],
-        slip=float(np.abs([values(run, "slip_car")[after], values(run, "slip_trailer")[after]]).max()),
+        slip=_largest_slip(run, after),
         mode=shunting_mode(known, v_car) if mode_exists else None,
         stays=stays,
         not_linear=_beyond_theory(p) or sentence,
     )
+
+
+def _largest_slip(run: xr.Dataset, after: slice) -> float:
+    """Of both vehicles; where it is not given, what the car's brake torque and the steady brake force make of it."""
+    if not {"slip_car", "slip_trailer"} & set(missing(run)):
+        return float(np.abs([values(run, "slip_car")[after], values(run, "slip_trailer")[after]]).max())
+    scenario = scenario_of(run)
+    p = scenario.parameters
+    try:
+        pushed = steady(p, scenario.brake_torque).D - p.eps
+    except HitchError:
+        pushed = 0.0
+    return max(scenario.brake_torque / p.R_c / p.C_kc, p.r * max(pushed, 0.0) / p.R_t / p.C_kt)
 
 
 def _beyond_theory(p: Parameters) -> str:
@@ -144,10 +171,11 @@ def _mode_rows(part: _Run, window: slice, found: Oscillation | NoOscillation) ->
     ]
 
 
-def _steady_rows(part: _Run, found: Oscillation | NoOscillation, run: xr.Dataset, alone: xr.Dataset) -> list[Judged]:
+def _steady_rows(
+    part: _Run, found: Oscillation | NoOscillation, run: xr.Dataset, alone: xr.Dataset | None
+) -> list[Judged]:
     p = part.parameters
     A, D, reason = _steady_values(part, found)
-    A_c = _mean_acceleration(alone, part.time[0])
     try:
         theory = steady(p, scenario_of(run).brake_torque)
     except HitchError:
@@ -156,12 +184,14 @@ def _steady_rows(part: _Run, found: Oscillation | NoOscillation, run: xr.Dataset
     wheels_c, wheels_t = p.I_c / p.R_c**2, p.I_t / p.R_t**2
     shares = wheels_c / (p.M_c + wheels_c) + wheels_t / (p.M_t + wheels_t)
     relative = STEADY_ALLOWED + part.slip * shares
+    A_c = math.nan if alone is None else _mean_acceleration(alone, part.time[0])
     ratio = A / A_c if A_c else math.nan
     if not A_c:
         reason = reason or "nothing brakes the car"
+    no_ratio = reason or ("nothing is known of the car alone" if alone is None else "")
     return [
         Judged("acceleration A", "m/s2", theory.A, A, relative * abs(theory.A), reason),
-        Judged("A / A_c", "1", theory.ratio, ratio, RATIO_ALLOWED, reason),
+        Judged("A / A_c", "1", theory.ratio, ratio, RATIO_ALLOWED, no_ratio),
         Judged("compression D", "m", theory.D, D, relative * (theory.D - p.eps), reason),
     ]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,16 +20,20 @@ def drive(
     relative_tolerance: float,
     steps: Iterable[tuple[float, float]],
     slowest: float = -np.inf,
+    torques: Sequence[tuple[float, float]] | None = None,
 ) -> Floats:
     """The outputs (n + 1, variables) at the start and after each of the steps (time and size in s).
 
-    It ends early before car or trailer becomes slower than `slowest` (m/s).
+    `torques` are brake torques (N.m) at the start and at the end of each step; without, it stays as it is. It ends
+    early before car or trailer becomes slower than `slowest` (m/s).
     """
     unit.start(parameters, inputs, relative_tolerance)
     rows = [unit.outputs()]
-    for time, size in steps:
+    for number, (time, size) in enumerate(steps):
         if _becomes_slower(rows[-1], size, slowest):
             break
+        if torques:
+            unit.feed("brake_torque", *torques[number], size)
         unit.step(time, size)
         rows.append(unit.outputs())
     return np.array(rows)

@@ -6,18 +6,21 @@ import math
 from importlib.metadata import version
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from overrun_hitch.experiments.drive import drive
+from overrun_hitch.experiments.torque import Torque
 from overrun_hitch.fmu.guest import GuestLost
 from overrun_hitch.fmu.guest_unit import guest_file
 from overrun_hitch.fmu.settings import TIME_LIMIT, Settings
 from overrun_hitch.fmu.unit import AnyUnit
 from overrun_hitch.parameters import DATUM, HitchError, Parameters, Scenario
 from overrun_hitch.results import VARIABLES, dataset, scenario_attributes
+
+Floats = NDArray[np.float64]
 
 MOST_STEPS = 1_000_000  # a table of 10 columns of that length takes 80 MB
 STANDSTILL = 0.1  # m/s: the paper's slip, a difference over the speed, means nothing at rest
@@ -41,29 +44,43 @@ def step_brake(
         return brake(unit, scenario, settings)
 
 
-def brake(unit: AnyUnit, scenario: Scenario, settings: Settings) -> xr.Dataset:
+def brake(
+    unit: AnyUnit,
+    scenario: Scenario,
+    settings: Settings,
+    times: Floats | None = None,
+    torque: Torque | None = None,
+) -> xr.Dataset:
     """Run `scenario` on the unit and sample it at the communication points, t = 0 included (see results.dataset).
+
+    At `times` (n,) in s instead, rising from 0 or later, where they are given. `torque`: instead of a step of the
+    scenario's brake torque.
 
     The run ends early, with attribute `ended` = "standstill", before car or trailer comes to rest, where the paper's
     model ends. HitchError for too many steps or a start at rest; what the unit refuses ends `opened_unit` with a
     HitchError.
     """
-    points = _communication_points(scenario, settings.communication_step)
+    wanted = _communication_points(scenario, settings.communication_step) if times is None else times
+    points = np.union1d(wanted, [0.0, *(torque.knots(0.0, wanted[-1]) if torque else ())])
     steps = [(now, then - now) for now, then in pairwise(points.tolist())]
-    inputs = {"brake_torque": scenario.brake_torque}
+    courses = torque.courses(points) if torque else None
+    inputs = {"brake_torque": courses[0][0] if courses else scenario.brake_torque}
     try:
-        rows = unit.perform(drive, scenario.parameters, inputs, settings.relative_tolerance, steps, STANDSTILL)
+        rows = unit.perform(drive, scenario.parameters, inputs, settings.relative_tolerance, steps, STANDSTILL, courses)
     except GuestLost as error:
-        raise HitchError(f"{error}; {_differences(scenario)}") from None
+        raise type(error)(f"{error}; {_differences(scenario)}") from None
+    identity = unit.identity
     attributes = {
         **scenario_attributes(scenario),
         **settings.model_dump(),
         "fmu": unit.name,
-        "guid": unit.guid,
+        "guid": identity.guid,
+        "missing": ", ".join(identity.missing),
         "ended": "duration" if len(rows) == len(points) else "standstill",
         "versions": ", ".join(f"{name} {version(name)}" for name in ("fmpy", "numpy", "xarray")),
     }
-    return dataset(points[: len(rows)], dict(zip(VARIABLES, rows.T, strict=True)), attributes)
+    shown = np.isin(points[: len(rows)], wanted)
+    return dataset(points[: len(rows)][shown], dict(zip(VARIABLES, rows[shown].T, strict=True)), attributes)
 
 
 def car_alone(scenario: Scenario) -> Scenario:
@@ -72,7 +89,7 @@ def car_alone(scenario: Scenario) -> Scenario:
     return scenario.changed(name=f"{scenario.name}, car alone", parameters=loose)
 
 
-def _communication_points(scenario: Scenario, h: float) -> np.ndarray[Any, np.dtype[np.float64]]:
+def _communication_points(scenario: Scenario, h: float) -> Floats:
     """0, h, 2 h, ... and the end of the run, which a last shorter step may have to reach."""
     V_0, duration = scenario.parameters.V_0, scenario.duration
     if V_0 < STANDSTILL:

@@ -13,8 +13,9 @@ from overrun_hitch.fitting.bench import OUTPUTS, Bench, opened_bench
 from overrun_hitch.fitting.estimates import ALIKE, Estimate, correlation, covariance, default_names
 from overrun_hitch.fitting.guess import first_guess
 from overrun_hitch.fitting.motion import Motion, motion
-from overrun_hitch.fitting.trace import Floats, Trace, noise
+from overrun_hitch.fitting.trace import Floats, Trace
 from overrun_hitch.fmu.files import BENCH
+from overrun_hitch.measure.noise import noise
 from overrun_hitch.parameters import DATUM, HitchError, Parameters, unknown
 
 STEP = 1e-4  # of a parameter's scale, for the Jacobian: well above the integrator's tolerance

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import UnivariateSpline
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
-from overrun_hitch.fitting.trace import Floats, Trace, noise
+from overrun_hitch.fitting.trace import Floats, Trace
+from overrun_hitch.measure.noise import noise
 
 # Of the samples' noise in square, what a spline may leave: from all of it to what one with 200 knots in 1000 leaves.
 LEFT = (1.0, 0.97, 0.94, 0.91, 0.88, 0.84, 0.8)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from overrun_hitch.fmu.translation import REALS
 from overrun_hitch.fmu.unpacking import unpacked
+from overrun_hitch.foreign.candidates import Candidate
 
 
 @dataclass(frozen=True)
@@ -49,3 +51,12 @@ def described(fmu: Path) -> Description:
         }
         interpolates = bool(description.coSimulation.canInterpolateInputs)
         return Description(str(description.guid), tables["parameter"], tables["input"], interpolates)
+
+
+def variables(fmu: Path) -> Iterator[Candidate]:
+    """The real inputs, outputs and parameters of an FMU of any kind. HitchError for a file that is none."""
+    with unpacked(fmu, lambda *_: None) as (description, _):
+        for variable in description.modelVariables:
+            kind = "output" if variable.causality == "local" else variable.causality
+            if variable.type in REALS and kind in ("input", "output", "parameter"):
+                yield Candidate(variable.name, variable.unit, variable.description or "", kind)

@@ -73,6 +73,12 @@ def build(fmu: Path = CAR_TRAILER) -> None:
         raise HitchError(f"building {fmu.name} left no file at {fmu}")
 
 
+def siblings(fmu: Path) -> list[Path]:
+    """The FMU, and that of the other version of FMI beside it, in fmi2 and fmi3, where it is there."""
+    others = [fmu.parent.with_name(folder) / fmu.name for folder in ("fmi2", "fmi3")]
+    return [fmu, *(other for other in others if other != fmu and other.is_file())]
+
+
 def _sources() -> Iterator[Path]:
     for folder in (LIBRARY, GENERATOR):
         yield from (path for path in folder.rglob("*") if path.suffix in SOURCES)

@@ -1,4 +1,4 @@
-"""CarTrailer.fmu opened in a process of its own, see guest.py."""
+"""Units opened in a process of their own, see guest.py."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from overrun_hitch.fmu.guest import Guest
-from overrun_hitch.fmu.opening import opened_unit
-from overrun_hitch.fmu.settings import TIME_LIMIT, checked_time_limit
-from overrun_hitch.fmu.unit import AnyUnit, HitchUnit
+from overrun_hitch.fmu.opening import opened_foreign, opened_unit
+from overrun_hitch.fmu.settings import TIME_LIMIT, Use, checked_time_limit
+from overrun_hitch.fmu.unit import AnyUnit, HitchUnit, Identity
+from overrun_hitch.foreign.mapping import NO_NAMES, Names
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -24,9 +25,10 @@ class GuestUnit:
         self._guest = guest
 
     @property
-    def guid(self) -> str:
-        """Of the FMU's description."""
-        return str(self._guest.call(_guid))
+    def identity(self) -> Identity:
+        """As AnyUnit's."""
+        found: Identity = self._guest.call(_identity)
+        return found
 
     def perform(self, run: Callable[Concatenate[HitchUnit, P], R], *args: P.args, **kwargs: P.kwargs) -> R:
         """`run(unit, ...)`, there. Raises what `run` raises; GuestLost where it takes too long or crashes."""
@@ -45,34 +47,39 @@ def guest_unit(fmu: Path, time_limit: float = TIME_LIMIT) -> Iterator[GuestUnit]
 
 
 @contextmanager
-def guest_file(fmu: Path, time_limit: float = TIME_LIMIT) -> Iterator[GuestUnit]:
-    """As `guest_unit`, but every run has an instance of its own: what others do in a reset is another question."""
-    with Guest(str(fmu), checked_time_limit(time_limit), _file, fmu) as guest:
+def guest_file(
+    fmu: Path, time_limit: float = TIME_LIMIT, names: Names = NO_NAMES, use: Use | None = None
+) -> Iterator[GuestUnit]:
+    """An FMU of car and trailer by whom it may be (see opened_foreign), in its own process as `guest_unit`.
+
+    Every run has an instance of its own: what others do in a reset is another question.
+    """
+    with Guest(str(fmu), checked_time_limit(time_limit), _file, fmu, dict(names), use) as guest:
         yield GuestUnit(fmu.name, guest)
 
 
 class _File:
     """An AnyUnit that is opened for each run."""
 
-    def __init__(self, fmu: Path) -> None:
+    def __init__(self, fmu: Path, names: Names, use: Use | None) -> None:
         self.name = fmu.name
-        self.guid = ""
-        self._fmu = fmu
+        self.identity = Identity("", "", "")
+        self._how = fmu, names, use
 
     def perform(self, run: Callable[Concatenate[HitchUnit, P], R], *args: P.args, **kwargs: P.kwargs) -> R:
-        with opened_unit(self._fmu) as unit:
-            self.guid = unit.guid
+        with opened_foreign(*self._how) as unit:
+            self.identity = unit.identity
             return run(unit, *args, **kwargs)
 
 
 @contextmanager
-def _file(fmu: Path) -> Iterator[_File]:
-    yield _File(fmu)
+def _file(fmu: Path, names: Names, use: Use | None) -> Iterator[_File]:
+    yield _File(fmu, names, use)
 
 
 def _performed(unit: AnyUnit, run: Callable[..., R], args: tuple[Any, ...], kwargs: dict[str, Any]) -> R:
     return unit.perform(run, *args, **kwargs)
 
 
-def _guid(unit: AnyUnit) -> str:
-    return unit.guid
+def _identity(unit: AnyUnit) -> Identity:
+    return unit.identity

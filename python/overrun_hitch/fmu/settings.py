@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Literal
+
 from overrun_hitch.parameters import Quantities, quantity
+
+Use = Literal["cs", "me"]
+USES: Mapping[Use, str] = {"cs": "Co-Simulation", "me": "Model Exchange"}
 
 TIME_LIMIT = 60.0  # s: six seconds of ours take 0.3 ms, a million communication points 20 s
 

@@ -7,8 +7,10 @@ directory is what it was.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import Any, Concatenate, ParamSpec, Protocol, TypeVar
 
 import numpy as np
@@ -16,11 +18,24 @@ from fmpy.fmi1 import FMICallException
 
 from overrun_hitch.fmu.messages import StartRefused, StepRefused, refusal
 from overrun_hitch.fmu.sampler import Floats, Sampler
+from overrun_hitch.fmu.settings import USES, Use
+from overrun_hitch.fmu.translation import Translation
 from overrun_hitch.parameters import Parameters
 from overrun_hitch.results import VARIABLES
 
 P = ParamSpec("P")
 R = TypeVar("R")
+
+
+@dataclass(frozen=True)
+class Identity:
+    """What an FMU is, for those who judge it."""
+
+    guid: str
+    interface: str  # "FMI 2.0, Co-Simulation"
+    tool: str  # that made it; "" where it does not say
+    missing: tuple[str, ...] = ()  # of results.VARIABLES
+    notes: tuple[str, ...] = ()  # what had to be guessed, a sentence each
 
 
 class Unit:
@@ -32,7 +47,8 @@ class Unit:
     def __init__(self, name: str, description: Any, slave: Any, messages: list[str]) -> None:
         self.name = name
         self._messages = messages
-        self.guid = str(description.guid)
+        self.identity = identity(description, "cs")
+        self.interpolates = bool(description.coSimulation and description.coSimulation.canInterpolateInputs)
         self._slave = slave
         self._references = {variable.name: variable.valueReference for variable in description.modelVariables}
         self.names = frozenset(self._references)
@@ -55,12 +71,15 @@ class Unit:
 
     def set(self, values: Mapping[str, float]) -> None:
         """Set inputs, and during a run tunable parameters, by name (SI units)."""
-        self._slave.setReal([self._references[name] for name in values], list(values.values()))
+        self._slave.setReal(*self._settings(values))
+
+    def _settings(self, values: Mapping[str, float]) -> tuple[list[int], list[float]]:
+        return [self._references[name] for name in values], list(values.values())
 
     def set_slopes(self, slopes: Mapping[str, float]) -> None:
         """How inputs change during the next step, by name, in their units per second."""
-        references = [self._references[name] for name in slopes]
-        self._slave.setRealInputDerivatives(references, [1] * len(references), list(slopes.values()))
+        references, values = self._settings(slopes)
+        self._slave.setRealInputDerivatives(references, [1] * len(references), values)
 
     def change(self, values: Mapping[str, float], slopes: Mapping[str, float]) -> None:
         """Set inputs, and how they change during the next step. StepRefused if the unit doesn't take them."""
@@ -70,6 +89,16 @@ class Unit:
                 self.set_slopes(slopes)
         except FMICallException as error:
             raise StepRefused(refusal(self.name, self._messages, error)) from None
+
+    def feed(self, name: str, start: float, end: float, size: float) -> None:
+        """An input that goes straight from `start` to `end` during the next step, of `size` s.
+
+        A unit that takes no slopes holds the mean. StepRefused as for `change`.
+        """
+        if self.interpolates:
+            self.change({name: start}, {name: (end - start) / size})
+        else:
+            self.change({name: 0.5 * (start + end)}, {})
 
     def get(self, names: Sequence[str]) -> list[float]:
         """Values by name (SI units)."""
@@ -124,14 +153,47 @@ class HitchUnit(Unit):
         return self.get(list(VARIABLES))
 
 
+class TranslatedUnit(HitchUnit):
+    """An FMU of car and trailer by other people: their names, units and signs, and not all that ours has."""
+
+    def __init__(
+        self, name: str, description: Any, slave: Any, messages: list[str], translated: Translation, use: Use
+    ) -> None:
+        super().__init__(name, description, slave, messages)
+        self.identity = identity(description, use, translated)
+        self.interpolates = self.interpolates and use == "cs" and description.fmiVersion == "2.0"
+        self._translated = translated
+        given = [name for name in VARIABLES if name in translated.channels]
+        self._read = [translated.channels[name].reference for name in given]
+        self._factors = [translated.channels[name].factor for name in given]
+        self._places = [list(VARIABLES).index(name) for name in given]
+
+    def _settings(self, values: Mapping[str, float]) -> tuple[list[int], list[float]]:
+        return self._translated.settings(self.name, values)
+
+    def outputs(self) -> list[float]:
+        """The outputs in the order of results.VARIABLES, in their units; NaN for those that the unit has not."""
+        row = [math.nan] * len(VARIABLES)
+        for place, size, value in zip(self._places, self._factors, self._slave.getReal(self._read), strict=True):
+            row[place] = size * value
+        return row
+
+
+def identity(description: Any, use: Use, translated: Translation | None = None) -> Identity:
+    """By the FMU's description, and what was made of it."""
+    missing, notes = (translated.missing, translated.notes) if translated else ((), ())
+    interface = f"FMI {description.fmiVersion}, {USES[use]}"
+    return Identity(str(description.guid), interface, description.generationTool or "", missing, notes)
+
+
 class AnyUnit(Protocol):
     """CarTrailer.fmu, opened in this process (HitchUnit) or in another (guest_unit.py)."""
 
     name: str
 
     @property
-    def guid(self) -> str:
-        """Of the FMU's description."""
+    def identity(self) -> Identity:
+        """What it is; of a unit opened for each run, what it was in the last."""
 
     def perform(self, run: Callable[Concatenate[HitchUnit, P], R], *args: P.args, **kwargs: P.kwargs) -> R:
         """`run(unit, ...)` where the unit is: `run` is a function of a module, and what goes in and out is pickled."""

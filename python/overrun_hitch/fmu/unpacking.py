@@ -6,7 +6,7 @@ import stat
 import tempfile
 import zipfile
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path, PureWindowsPath
 from typing import Any
@@ -14,6 +14,7 @@ from typing import Any
 import fmpy
 
 from overrun_hitch.fmu.messages import one_line
+from overrun_hitch.fmu.settings import Use
 from overrun_hitch.parameters import HitchError
 
 # What an archive may hold: far more than an FMU needs, far less than harms. Ours for five systems unpacks to 3 MB.
@@ -26,9 +27,37 @@ PIECE = 2**20  # bytes read at once
 UNWRITABLE = "the working directory's name has letters that this locale cannot write; allowed: UTF-8, as LC_ALL=C.UTF-8"
 
 
+def co_simulation_2(fmu: Path, description: Any, names: list[str]) -> None:
+    """HitchError for anything but an FMI 2.0 unit for co-simulation with a library for this machine."""
+    if description.fmiVersion != "2.0" or description.coSimulation is None:
+        raise HitchError(f"{fmu} has FMI {description.fmiVersion}: an FMI 2.0 unit for co-simulation is needed")
+    check_library(fmu, description, names, "cs")
+
+
+def check_library(fmu: Path, description: Any, names: list[str], use: Use) -> None:
+    """HitchError for a unit that has no library for this use on this machine."""
+    part = description.coSimulation if use == "cs" else description.modelExchange
+    library = f"{part.modelIdentifier}{fmpy.sharedLibraryExtension}"
+    machine = fmpy.platform if description.fmiVersion == "2.0" else fmpy.platform_tuple
+    place = f"binaries/{machine}/"
+    if f"{place}{library}" not in names:
+        others = [
+            name.removeprefix(place)
+            for name in names
+            if name.startswith(place) and name.endswith(fmpy.sharedLibraryExtension)
+        ]
+        if others:
+            raise HitchError(f"{fmu} has no {library}, the library of its modelIdentifier; it has {', '.join(others)}")
+        there = sorted({name.split("/")[1] for name in names if name.startswith("binaries/") and name.count("/") == 2})
+        raise HitchError(f"{fmu} has no {library} for {machine}; it has {', '.join(there) or 'no binaries'}")
+
+
 @contextmanager
-def unpacked(fmu: Path) -> Iterator[tuple[Any, str]]:
-    """The model description of an FMU that this machine can run, and the folder it is unpacked in while needed."""
+def unpacked(fmu: Path, check: Callable[[Path, Any, list[str]], object] = co_simulation_2) -> Iterator[tuple[Any, str]]:
+    """The model description of an FMU that this machine can run, and the folder it is unpacked in while needed.
+
+    `check` looks at the file, its description and the names in it first, and raises HitchError.
+    """
     if not fmu.is_file():
         raise HitchError(f"{fmu} is not there: an FMU file is needed")
     with tempfile.TemporaryDirectory(prefix="hitch-") as folder:
@@ -41,7 +70,7 @@ def unpacked(fmu: Path) -> Iterator[tuple[Any, str]]:
             raise HitchError(UNWRITABLE) from None
         except Exception as error:  # fmpy raises bare Exception, and lxml its own
             raise HitchError(f"{fmu} is broken: {one_line(error)}") from None
-        _check_kind(fmu, description, names)
+        check(fmu, description, names)
         yield description, folder
 
 
@@ -105,20 +134,3 @@ def _extract_one(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, folder: Path,
         while written <= most and (piece := source.read(PIECE)):
             written += file.write(piece)
     return written
-
-
-def _check_kind(fmu: Path, description: Any, names: list[str]) -> None:
-    if description.fmiVersion != "2.0" or description.coSimulation is None:
-        raise HitchError(f"{fmu} has FMI {description.fmiVersion}: an FMI 2.0 unit for co-simulation is needed")
-    library = f"{description.coSimulation.modelIdentifier}{fmpy.sharedLibraryExtension}"
-    place = f"binaries/{fmpy.platform}/"
-    if f"{place}{library}" not in names:
-        others = [
-            name.removeprefix(place)
-            for name in names
-            if name.startswith(place) and name.endswith(fmpy.sharedLibraryExtension)
-        ]
-        if others:
-            raise HitchError(f"{fmu} has no {library}, the library of its modelIdentifier; it has {', '.join(others)}")
-        there = sorted({name.split("/")[1] for name in names if name.startswith("binaries/") and name.count("/") == 2})
-        raise HitchError(f"{fmu} has no {library} for {fmpy.platform}; it has {', '.join(there) or 'no binaries'}")

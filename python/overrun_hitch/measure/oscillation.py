@@ -53,6 +53,14 @@ class Oscillation:
         _, cosine, sine = self._coefficients(time, trace)
         return complex(cosine, -sine)
 
+    def errors_of(self, time: Floats, trace: Floats) -> tuple[float, float]:
+        """Standard errors of growth rate (1/s) and frequency (Hz), if what is left is white."""
+        window, scaled, unknowns = _window(time), trace / float(np.ptp(trace)), np.array(self._unknowns)
+        left, slopes = _remainder(unknowns, window, scaled), _slopes(unknowns, window, scaled)
+        variance = float(left @ left) / (len(trace) - 7)  # four unknowns, and three that enter linearly
+        growth, omega = np.sqrt(variance * np.diag(np.linalg.pinv(slopes.T @ slopes)))[:2]
+        return float(growth), float(omega) / (2.0 * np.pi)
+
     def _coefficients(self, time: Floats, trace: Floats) -> Floats:
         basis = _basis(_window(time), np.array(self._unknowns))
         return np.asarray(np.linalg.lstsq(basis, trace, rcond=None)[0])

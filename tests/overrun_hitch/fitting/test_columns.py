@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from overrun_hitch import cli
-from overrun_hitch.fitting.columns import factor, read_trace
+from overrun_hitch.fitting.columns import read_trace
 from overrun_hitch.parameters import HitchError
 
 N = 60
@@ -74,15 +74,6 @@ def test_what_is_no_table(text: str, tmp_path: Path) -> None:
         read_trace(path, {}, {})
     with pytest.raises(HitchError, match="cannot read"):
         read_trace(tmp_path / "none.csv", {}, {})
-
-
-def test_units() -> None:
-    """By the header, after its name; as engineers write them."""
-    assert factor("compression", "mm") == pytest.approx(1e-3)
-    assert factor("v_rel", "km/h") == pytest.approx(1.0 / 3.6)
-    assert factor("F_hitch", "kgf") == pytest.approx(9.80665)
-    assert factor("trailer_brake_torque", "kNm") == factor("trailer_brake_torque", "kN.m") == pytest.approx(1e3)
-    assert factor("time", "ms") == pytest.approx(1e-3)
 
 
 def test_a_trace_is_the_same_in_any_unit(tmp_path: Path) -> None:

@@ -17,7 +17,8 @@ from overrun_hitch.fitting.bench import opened_bench
 from overrun_hitch.fitting.estimates import Estimate
 from overrun_hitch.fitting.fit import fit
 from overrun_hitch.fitting.motion import Motion, motion
-from overrun_hitch.fitting.trace import Trace, noise
+from overrun_hitch.fitting.trace import Trace
+from overrun_hitch.measure.noise import noise
 from overrun_hitch.parameters import DATUM, FIGURES, HitchError
 from overrun_hitch.results import values
 from tests.kept import kept_fmus

@@ -15,7 +15,9 @@ import psutil
 import pytest
 
 from overrun_hitch import cli
-from overrun_hitch.comparison.crosscheck import Allowed, compare_units
+from overrun_hitch.comparison.crosscheck import crosscheck
+from overrun_hitch.comparison.distances import Allowed
+from overrun_hitch.comparison.sources import Manoeuvre, UnitSource
 from overrun_hitch.experiments import step_brake as experiment
 from overrun_hitch.fmu.guest_unit import guest_unit
 from overrun_hitch.fmu.opening import opened_unit
@@ -122,7 +124,7 @@ def test_two_fmus_that_share_what_a_process_has_one_of_still_differ(
     assert cli.main(command) == 1
     assert "B differs from A in figure 8: " in capfd.readouterr().out
     with opened_unit(fmus[0]) as first, opened_unit(fmus[1]) as second:  # where they meet, one hides the other
-        check = compare_units(FIGURES["8"], [first, second], Settings(), Allowed())
+        check = crosscheck(Manoeuvre(FIGURES["8"], Settings()), [UnitSource(first), UnitSource(second)], Allowed())
     assert check.comparisons[0].differing == []
 
 
@@ -171,8 +173,8 @@ def test_every_command_that_runs_fmus_has_a_time_limit() -> None:
         for command in cli.app.registered_commands
         if command.callback
     }
-    with_fmus = {name for name, known in options.items() if {"fmu", "fmus", "whole"} & known.keys()}
-    assert with_fmus == {"run", "crosscheck", "couple", "optimise", "sensitivity", "sweep", "paper", "report"}
+    with_fmus = {name for name, known in options.items() if {"fmu", "files_", "whole"} & known.keys()}
+    assert with_fmus == {*"run crosscheck couple optimise sensitivity sweep paper reference report".split()}
     assert {name for name, known in options.items() if "time_limit" in known} == with_fmus
 
 

@@ -91,7 +91,7 @@ def study(fmu: Path, progress: Callable[[str], object] = lambda _: None, time_li
         stopped = stops(unit)
         return Study(
             fmu=unit.name,
-            guid=unit.guid,
+            guid=unit.identity.guid,
             runs=runs,
             run_without_clearance=without,
             alone=alone,
