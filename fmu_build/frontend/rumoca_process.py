@@ -18,7 +18,7 @@ from typing import Any
 
 import rumoca
 
-from .algorithms import as_equations, first_section
+from .rewriting.restated import algorithm_left, restated
 
 Request = Mapping[str, Any]
 
@@ -55,9 +55,7 @@ def _answer(request: Request, folder: Path) -> str:
             else:
                 model, files = _compiled_alone(entry, request, folder)
         except rumoca.RumocaError as error:
-            if ALGORITHM not in str(error):
-                raise
-            model, files = _with_equations(entry, request, folder)
+            model, files = _restated(entry, request, folder, error)
         if request["times"]:
             return json.dumps(_simulated(model, request))
         return f'{{"files": {json.dumps(files)}, "flat": {model.to_json("flat")}}}'
@@ -77,18 +75,25 @@ def _compiled(entry: Path, request: Request) -> tuple[rumoca.Model, list[tuple[i
     return model, model.to_dict("dae")["source_map"]["files"]
 
 
-def _with_equations(entry: Path, request: Request, folder: Path) -> tuple[rumoca.Model, list[tuple[int, str, str]]]:
-    """The same, with algorithm sections as equations where that says the same."""
+def _restated(
+    entry: Path, request: Request, folder: Path, error: rumoca.RumocaError
+) -> tuple[rumoca.Model, list[tuple[int, str, str]]]:
+    """The same of what rumoca refuses, said in other words, if there are some."""
     original = entry.parent if (entry.parent / "package.mo").exists() else entry
-    copy = folder / "equations" / original.name
+    copy = folder / "restated" / original.name
     copy.parent.mkdir()
     (shutil.copytree if original.is_dir() else shutil.copyfile)(original, copy)
+    changed = False
     for file in copy.rglob("*.mo") if copy.is_dir() else [copy]:
-        file.write_text(as_equations(file.read_text(encoding="utf-8")), encoding="utf-8")
+        text = file.read_text(encoding="utf-8")
+        file.write_text(restated(text), encoding="utf-8")
+        changed |= file.read_text(encoding="utf-8") != text
+    if not changed:
+        raise error
     try:
         model, files = _compiled(copy / entry.name if copy.is_dir() else copy, request)
-    except rumoca.RumocaError as error:
-        raise type(error)(str(error).replace(str(copy), str(original))) from None
+    except rumoca.RumocaError as second:
+        raise type(second)(str(second).replace(str(copy), str(original))) from None
     return model, [(number, name.replace(str(copy), str(original)), text) for number, name, text in files]
 
 
@@ -131,7 +136,7 @@ def _located_message(text: str, entry: Path, class_name: str) -> str:
     files = _files(entry, class_name)
     for file in files if ALGORITHM in message else ():
         text = file.read_text(encoding="utf-8")
-        if (start := first_section(as_equations(text))) is not None:
+        if (start := algorithm_left(text)) is not None:
             return f"{file}:{_line(text, start)}: {message}: {ALGORITHM_REMEDY}"
     for said, shown, remedy in REMEDIES:
         for file in files if said in message else ():
