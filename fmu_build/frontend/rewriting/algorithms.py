@@ -7,7 +7,7 @@ equations. When-clauses stay statements; those of one section that assign the sa
 
 from __future__ import annotations
 
-from collections.abc import Sequence, Set
+from collections.abc import Collection, Sequence, Set
 
 import networkx as nx
 
@@ -37,9 +37,10 @@ def as_equations(text: str) -> str:
     """The Modelica text with those algorithm sections of models and blocks as equations that can be said so."""
     changes = []
     for owner in classes_of(tokens_of(text)):
-        for word, tokens in sections_of(owner):
-            if word.text == "algorithm" and tokens and owner.kind != "function":
-                changes += _changes(text, owner, word, tokens)
+        for initial in (False, True):
+            for word, tokens in sections_of(owner, initial=initial):
+                if word.text == "algorithm" and tokens and owner.kind != "function":
+                    changes += _changes(text, owner, word, tokens, initial)
     for start, end, replacement in sorted(changes, reverse=True):
         text = text[:start] + replacement + text[end:]
     return text
@@ -56,12 +57,13 @@ def first_section(text: str) -> int | None:
     return min(starts, default=None)
 
 
-def _changes(text: str, owner: ClassBody, word: Token, tokens: Tokens) -> list[tuple[int, int, str]]:
+def _changes(text: str, owner: ClassBody, word: Token, tokens: Tokens, initial: bool) -> list[tuple[int, int, str]]:
+    kept = {} if initial else discrete_types(owner)
     try:
         statements = statements_of(tokens)
-        section = _Section(text, owner, statements, {})
+        section = _Section(text, owner, statements, kept, frozenset())
         if section.is_cyclic():
-            section = _Section(text, owner, statements, dict.fromkeys(section.targets, ""))
+            section = _Section(text, owner, statements, kept, section.targets)
     except NotSaidOtherwiseError:
         return []
     if not section.declarations and all(piece.startswith("algorithm") for _, piece in section.pieces):
@@ -73,11 +75,18 @@ def _changes(text: str, owner: ClassBody, word: Token, tokens: Tokens) -> list[t
 
 
 class _Section:
-    """A section's statements, followed in their order. ``inlined``: targets that are never read by their names."""
+    """A section's statements, followed in their order. ``kept``: variables that without an assignment keep the value
+    from before; ``inlined``: targets that are never read by their names."""
 
-    def __init__(self, text: str, owner: ClassBody, statements: Sequence[Statement], inlined: Values) -> None:
-        self._text, self._owner, self._inlined = text, owner, inlined
-        self._discrete = discrete_types(owner)
+    def __init__(
+        self,
+        text: str,
+        owner: ClassBody,
+        statements: Sequence[Statement],
+        kept: Collection[str],
+        inlined: Set[str],
+    ) -> None:
+        self._text, self._owner, self._kept, self._inlined = text, owner, kept, inlined
         self._numbers: dict[str, str] = {}  # the variables of loops that are being unrolled
         self._settled: set[str] = set()  # targets that equations of their own determine
         self._lines: dict[str, int] = {}
@@ -162,7 +171,7 @@ class _Section:
 
     def _initial(self, reference: str) -> str:
         """The value before the section: that before the event, of what is discrete."""
-        if base_of(reference) not in self._discrete:
+        if base_of(reference) not in self._kept:
             raise NotSaidOtherwiseError
         return f"pre({reference})"
 

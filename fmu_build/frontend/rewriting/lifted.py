@@ -13,6 +13,7 @@ from .tokens import ClassBody, Token, arguments, classes_of, closing, declared_n
 from .when_words import name_of
 
 _RELATIONS = frozenset(("<", ">", "<=", ">=", "==", "<>"))
+NO_STATE = "(stateSelect = StateSelect.never)"
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,7 @@ class _Part:
 
     kind: str
     tokens: Sequence[Token]
+    modifier: str = ""
 
     @property
     def span(self) -> tuple[int, int]:
@@ -46,7 +48,7 @@ def _changes(text: str) -> Iterator[tuple[int, int, str]]:
         for part in inner:
             yield *part.span, name_of(written(part.tokens), owner)
         if declared:
-            lines = "".join(f" {p.kind} {name} = {written(p.tokens)};" for name, p in declared.items())
+            lines = "".join(f" {p.kind} {name}{p.modifier} = {written(p.tokens)};" for name, p in declared.items())
             yield owner.start, owner.start, f"protected{lines} public "
 
 
@@ -67,7 +69,7 @@ def _parts(owner: ClassBody) -> Iterator[_Part]:
         call, inside = tokens[i : last + 1], arguments(tokens[i + 2 : last])
         is_whole = before == "=" and tokens[last + 1 : last + 2] and tokens[last + 1].text in {";", ","}
         if token.text in {"der", "hold"} and len(inside) == 1 and inside[0] and not is_reference(inside[0]):
-            yield _Part("Real", inside[0])
+            yield _Part("Real", inside[0], NO_STATE if token.text == "der" else "")
         elif token.text == "Clock" and len(inside) == 1 and _RELATIONS & {t.text for t in inside[0]}:
             yield _Part("Boolean", inside[0])
         elif token.text == "Clock" and before != "=":

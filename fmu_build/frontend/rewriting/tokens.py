@@ -73,11 +73,12 @@ def classes_of(tokens: Sequence[Token]) -> Iterator[ClassBody]:
             open_classes[-1].tokens.append(token)
 
 
-def sections_of(body: ClassBody) -> Iterator[tuple[Token, list[Token]]]:
-    """The word ``algorithm`` or ``equation`` of each section of a class but initial ones, and what stands in it."""
+def sections_of(body: ClassBody, *, initial: bool = False) -> Iterator[tuple[Token, list[Token]]]:
+    """The word ``algorithm`` or ``equation`` of each section of a class, and what stands in it: of initial ones, or of
+    the others."""
     tokens = body.tokens
     for i, token in enumerate(tokens):
-        if token.text in {"algorithm", "equation"} and (i == 0 or tokens[i - 1].text != "initial"):
+        if token.text in {"algorithm", "equation"} and (i > 0 and tokens[i - 1].text == "initial") == initial:
             last = i + 1
             while last < len(tokens) and (
                 tokens[last].text not in _SECTIONS

@@ -2,8 +2,7 @@
 
 ``when c then b[1] = u; for i in 2:n loop b[i] = pre(b[i-1]); end for; end when;`` assigns elements, so each becomes an
 equation, ``b[1] = if edge(c) then u else pre(b[1])``; b is declared discrete then. ``(a, b) = f(x)`` becomes a
-statement. A clock in one of several branches, or of several conditions, is called ``sample(0, 1) or false``, lest
-rumoca assigns the variables to that clock.
+statement. A clock is called ``sample(0, 1) or false``, lest rumoca assigns the variables to that clock alone.
 """
 
 from __future__ import annotations
@@ -56,11 +55,13 @@ def with_whens_restated(text: str) -> str:
 
 
 def _whens(owner: ClassBody) -> Iterator[Whens]:
-    """The when-clauses among the equations of a class that can be read."""
+    """The when-clauses among the equations of a class that can be read; in loops conditions could be no variables."""
     for word, tokens in sections_of(owner):
-        at = 0
+        at = depth = 0
         while word.text == "equation" and at < len(tokens):
-            if tokens[at].text != "when":
+            if tokens[at].text == "for":
+                depth += 1 if tokens[at - 1].text != "end" else -1
+            if tokens[at].text != "when" or depth:
                 at += 1
                 continue
             last = next(
@@ -79,8 +80,7 @@ def _whens(owner: ClassBody) -> Iterator[Whens]:
 def _changes(text: str, owner: ClassBody, when: Whens, targets: set[str]) -> Iterator[Change]:
     statements = [statement for _, block in when.branches for statement in block]
     if not any(_is_refused(statement) for statement in statements):
-        if len(when.branches) > 1 or any(len(vector_parts(condition or ())) > 1 for condition, _ in when.branches):
-            yield from _without_clocks(when)
+        yield from _without_clocks(when)
         return
     if len(when.branches) > 1:
         raise NotSaidOtherwiseError

@@ -91,10 +91,12 @@ def test_sections_of_a_text(around: str, after: str) -> None:
         assert as_equations(text) == text, body
 
 
-@pytest.mark.parametrize("section", ["initial algorithm", "equation"])
-def test_other_sections_stay(section: str) -> None:
-    text = AROUND[0].format(section=section, body="s := time; p := 2*s;", after="")
-    assert as_equations(text) == text
+def test_initial_sections() -> None:
+    text = AROUND[0].format(section="initial algorithm", body="s := 2; s := s + 1;", after="")
+    assert "initial equation\n s = (2) + 1;\nend M;" in as_equations(text)
+    for body in ("n := n + 1;", "if c then n := 1; end if;"):
+        text = AROUND[0].format(section="initial algorithm", body=body, after="")
+        assert as_equations(text) == text, body
 
 
 def test_what_cannot_be_said_otherwise_is_refused_with_a_remedy(modelica_file: Writer) -> None:
