@@ -235,12 +235,15 @@ class ExpressionReader:
         raise ValueError(f"{name}(): not supported; write a function with an algorithm in Modelica")
 
     def _several(self, body: Mapping[str, Any]) -> Value:
-        """``(a, b) = f(x)``, as the residuals a - y1, b - y2; a place may be empty."""
+        """``(a, b) = f(x)``, as the residuals a - y1, b - y2."""
+        return tuple(BINARY["Sub"](target, value) for target, value in self.parts(body))
+
+    def parts(self, body: Mapping[str, Any]) -> list[tuple[Value, Value]]:
+        """What ``(a, b) = f(x)`` says is equal: a and y1, b and y2; a place may be empty."""
         places = body["lhs"]["Tuple"]["elements"]
         targets = [None if t is None or "Empty" in t else self.read(t) for t in places]
         values = self.outputs(body["rhs"]["FunctionCall"])
-        pairs = [(t, v) for t, v in zip(targets, values, strict=False) if t is not None]
-        return tuple(BINARY["Sub"](target, value) for target, value in pairs)
+        return [(t, v) for t, v in zip(targets, values, strict=False) if t is not None]
 
     def _call(self, body: Mapping[str, Any]) -> Value:
         function, arguments = body["function"], body["args"]

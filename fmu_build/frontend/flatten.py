@@ -31,6 +31,7 @@ from .annotations import (
 )
 from .audit import refuse_lost_modifiers
 from .clauses import assigned_names, read_algorithms, read_checks, read_whens
+from .clocks import without_clocks
 from .components import elements_for
 from .declarations import Node, declared_names, fixed_names, is_text, variables_of
 from .event_expressions import EventReader, enumeration_types
@@ -54,6 +55,7 @@ def flatten(path: Path, class_name: str, libraries: Sequence[Path] = ()) -> Flat
     refuse_lost_modifiers(flat, sources, classes)
     flat = rescoped(flat, sources, classes)
     flat = with_inner(with_modifiers(flat, fixed_names(flat)), sources)
+    flat = without_clocks(flat, sources)
     fixed = fixed_names(flat)  # with outer constants, which have their values now
     declared = declared_names(flat)
     reader = EventReader(sources, declared, flat, fixed)
@@ -174,6 +176,8 @@ def _discrete_equation(
     body = residual.get("Binary")
     if body is None or body["op"] != "Sub":
         return []
+    if "Tuple" in body["lhs"]:
+        return _discrete_outputs(body, origin, taken, reader)
     options = []
     determines_other = False
     with reader.equation(origin, names), reader.inside_branch():
@@ -193,6 +197,20 @@ def _discrete_equation(
         text = reader.sources.text(body["span"]) if "span" in body else ""
         raise BuildError(f"{origin}: {text}: an equation between discrete variables must read: name = expression")
     return []
+
+
+def _discrete_outputs(body: Node, origin: str, taken: frozenset[str], reader: EventReader) -> list[Alternatives]:
+    """``(a, b) = f(x)`` between discrete variables as assignments; none if it is another equation."""
+    with reader.equation(origin), reader.inside_branch():
+        pairs = [
+            pair
+            for part, value in reader.parts(body)
+            for pair in zip(elements(part), elements_for(part, value), strict=True)
+        ]
+    names = {s.name if s.is_Symbol else "" for s, _ in pairs}
+    if not names <= reader.declared.discrete or names & taken:
+        return []
+    return [Alternatives((Assignment(s.name, value, origin),)) for s, value in pairs]
 
 
 def _equation_origin(node: dict[str, Any], sources: Sources) -> str:

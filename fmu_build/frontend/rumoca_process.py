@@ -18,8 +18,7 @@ from typing import Any
 
 import rumoca
 
-from .algorithms import as_equations, first_section
-from .ranges import REFUSED, with_ranges
+from .rewriting.restated import algorithm_left, restated
 from .source_tree import SourceTree, copy_of_needed, whole_tree
 
 Request = Mapping[str, Any]
@@ -28,7 +27,6 @@ Files = list[tuple[int, str, str]]  # number, name and text of each
 MISSING = re.compile("unresolved|not found|does not exist|resolve/parse failed")
 ALGORITHM = "unsupported model algorithm"
 ALGORITHM_REMEDY = "what is assigned twice, or not in every branch, needs two names; or write the section as a function"
-RESTATED = (ALGORITHM, *REFUSED)  # what rumoca says of that which may be said otherwise
 # What rumoca says, what shows the place in the source, and what to do.
 REMEDIES = (
     (
@@ -100,18 +98,21 @@ def _compiled(tree: SourceTree, class_name: str) -> tuple[rumoca.Model, Files]:
     try:
         model = rumoca.Session(roots=[*map(str, tree.libraries)]).load(str(tree.entry), model=class_name)
     except rumoca.RumocaError as error:
-        if not tree.written or not any(said in str(error) for said in RESTATED):
-            raise
-        model = _restated(tree, class_name)
+        model = _restated(tree, class_name, error)
     return model, [
         (number, tree.original(name), text) for number, name, text in model.to_dict("dae")["source_map"]["files"]
     ]
 
 
-def _restated(tree: SourceTree, class_name: str) -> rumoca.Model:
-    """The compiled class, with algorithm sections as equations where that says the same, and all ranges written out."""
+def _restated(tree: SourceTree, class_name: str, error: rumoca.RumocaError) -> rumoca.Model:
+    """The compiled class of what rumoca refuses, said in other words, if there are some."""
+    changed = False
     for file in tree.written:
-        file.write_text(as_equations(with_ranges(file.read_text(encoding="utf-8"))), encoding="utf-8")
+        text = file.read_text(encoding="utf-8")
+        file.write_text(restated(text), encoding="utf-8")
+        changed |= file.read_text(encoding="utf-8") != text
+    if not changed:
+        raise error
     return rumoca.Session(roots=[*map(str, tree.libraries)]).load(str(tree.entry), model=class_name)
 
 
@@ -137,7 +138,7 @@ def _located_message(text: str, entry: Path, class_name: str) -> str:
     files = _files(entry, class_name)
     for file in files if ALGORITHM in message else ():
         text = file.read_text(encoding="utf-8")
-        if (start := first_section(as_equations(text))) is not None:
+        if (start := algorithm_left(text)) is not None:
             return f"{file}:{_line(text, start)}: {message}: {ALGORITHM_REMEDY}"
     for said, shown, remedy in REMEDIES:
         for file in files if said in message else ():

@@ -118,11 +118,23 @@ def relation_of(truth: sympy.Symbol) -> int | None:
 def is_continuous(value: sympy.Expr, others: Set[str]) -> bool:
     """Whether a value changes in between events, by more than conditions. ``others``: variables that do not."""
     if isinstance(value, sympy.Piecewise):
-        return any(is_continuous(branch, others) for branch, _ in value.args)
+        return any(is_continuous(branch, others) for branch, condition in value.args if not is_momentary(condition))
     if value.is_Symbol:
         is_derivative = kind_of(value.name) is Kind.DERIVATIVE
         return is_derivative or (kind_of(value.name) is None and value.name not in {*others, INITIAL, TERMINAL})
     return any(is_continuous(argument, others) for argument in value.args)
+
+
+def is_momentary(condition: sympy.Basic) -> bool:
+    """Whether a condition holds during events alone: ``edge(b)``, ``change(b)``, or one of several such ones."""
+    if isinstance(condition, sympy.Or):
+        return all(map(is_momentary, condition.args))
+    if isinstance(condition, sympy.Ne):
+        return str(condition.rhs) == pre(str(condition.lhs)) or str(condition.lhs) == pre(str(condition.rhs))
+    parts = condition.args if isinstance(condition, sympy.And) else ()
+    return any(
+        sympy.Not(is_true(pre(name))) in parts for name in map(str, condition.free_symbols) if is_true(name) in parts
+    )
 
 
 def is_true(name: str) -> sympy.Expr:

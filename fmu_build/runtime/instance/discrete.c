@@ -149,6 +149,12 @@ static double tick(const State *s, int sample)
     return s->v.at[samples[sample].start] + s->discrete.ticks[sample] * s->v.at[samples[sample].interval];
 }
 
+/* How far a tick may be ahead, for rounding, and be there: a start before 0 loses digits on the way. */
+static double rounding(const State *s, int sample)
+{
+    return SAME_TIME * fmax(fabs(s->v.time), fabs(s->v.at[samples[sample].start]));
+}
+
 /* The number of the last tick up to now, but for rounding; -1 if there was none. */
 static double ticks_passed(const State *s, int sample)
 {
@@ -163,7 +169,7 @@ static bool begin_ticks(State *s)
 {
     bool any = false;
     for (int i = 0; i < N_SAMPLES; i++) {
-        const bool ticks = is_there(tick(s, i), s->v.time);
+        const bool ticks = tick(s, i) - s->v.time <= rounding(s, i);
         s->v.at[samples[i].flag] = ticks ? 1.0 : 0.0;
         s->discrete.ticks[i] = ticks ? fmax(s->discrete.ticks[i], ticks_passed(s, i)) + 1.0 : s->discrete.ticks[i];
         any = any || ticks;
@@ -211,7 +217,7 @@ static bool first_ticks(State *s, Message *why)
         }
         const double passed = ticks_passed(s, i);
         s->discrete.ticks[i] = passed;
-        if (passed < 0.0 || !(fabs(tick(s, i) - s->v.time) <= SAME_TIME * fabs(s->v.time))) {
+        if (passed < 0.0 || !(fabs(tick(s, i) - s->v.time) <= rounding(s, i))) {
             s->discrete.ticks[i] = passed + 1.0; /* the one that has passed is over */
         }
     }

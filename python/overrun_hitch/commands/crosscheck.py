@@ -19,8 +19,8 @@ from overrun_hitch.commands.options import (
     file_stem,
     our_fmu,
 )
-from overrun_hitch.scenarios import asked_scenario
 from overrun_hitch.parameters import FIGURES, HitchError
+from overrun_hitch.scenarios import asked_scenario
 
 if TYPE_CHECKING:
     from overrun_hitch.comparison.crosscheck import Crosscheck

@@ -8,7 +8,7 @@ import pytest
 
 from fmu_build.errors import BuildError
 from fmu_build.frontend.flatten import flatten
-from fmu_build.frontend.ranges import with_ranges
+from fmu_build.frontend.rewriting.ranges import with_ranges
 from tests.fmu_build.conftest import Writer
 
 # What we write, between << and >>, may be left out.

@@ -9,9 +9,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from .syntax import CLOSING, OPENING, TOKEN
+from ..syntax import CLOSING, OPENING, TOKEN
 
-REFUSED = ("require an explicit range", "requires an explicit range")  # what rumoca says
 Tokens = Sequence[tuple[str, int]]  # with the place of their ends, in bytes
 
 

@@ -1,0 +1,18 @@
+"""A Modelica text in the words that rumoca takes. No line of it moves, so places stay what they are."""
+
+from __future__ import annotations
+
+from .algorithms import as_equations, first_section
+from .lifted import with_parts_lifted
+from .ranges import with_ranges
+from .when_equations import with_whens_restated
+
+
+def restated(text: str) -> str:
+    """The text with algorithm sections as equations, simpler when-clauses, parts of expressions as variables, ranges written out."""
+    return with_parts_lifted(with_whens_restated(as_equations(with_ranges(text))))
+
+
+def algorithm_left(text: str) -> int | None:
+    """Where the first algorithm section of a model begins that has no other words; None if there is none."""
+    return first_section(as_equations(text))
