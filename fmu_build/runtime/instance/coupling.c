@@ -17,11 +17,6 @@ static const double TELLING = 1e-6;
 
 static double *across(State *s, int i) { return &s->v.at[coupling_info.across[i].input]; }
 
-/* How what each u was wrong by went on over an exchange: at the share s of it by (1 - q) s + q s^2 of what it is at the
- * end. q is 0 if u was held while it moved steadily, 1 if its slope was right at the start, in between if the slope was
- * that of the exchange before. */
-static double bend(const State *s, int i, double size) { return size / (size + s->coupling.span[i]); }
-
 /* Each u was wrong by an error at the end of an exchange of this size. The integral of that over the exchange, times
  * df/du, is what the states lack; how that has gone on until now is right to second order, and bounded where the model
  * is stiff. */
@@ -32,8 +27,8 @@ static void correct(Instance *instance, const double errors[], double size)
     Variables d = {.at = {0.0}};
     double q = 0.0;
     for (int i = 0; i < N_ACROSS; i++) {
-        d.at[coupling_info.across[i].input] = errors[i] * size * (0.5 - bend(s, i, size) / 6.0);
-        q += bend(s, i, size) / N_ACROSS;
+        d.at[coupling_info.across[i].input] = errors[i] * size * (0.5 - coupling_exchange_bend(s, i, size) / 6.0);
+        q += coupling_exchange_bend(s, i, size) / N_ACROSS;
     }
     model_tangent(&s->v, s->holds, false, &d);
     model_jacobian(&s->v, s->holds, r->jacobian, r->time_derivative);
@@ -117,7 +112,7 @@ static double expected_slope(const State *s, int i, double size, double *span)
     const double given = s->v.at[coupling_info.across[i].derivative];
     const bool extrapolates = c->stepped && s->v.at[coupling_info.extrapolate] > 0.5;
     const double more =
-        extrapolates ? coupling_response(s, i) * (coupling_exchange_held(s, &c->now, 0) - c->applied) : 0.0;
+        extrapolates ? coupling_values_response(s, i) * (coupling_exchange_held(s, &c->now, 0) - c->applied) : 0.0;
     if (given != 0.0) {
         *span = 0.0;
         return given + more;

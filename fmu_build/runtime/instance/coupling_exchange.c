@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "coupling_values.h"
+
 /* The longest of the last exchanges is looked for, each forgetting so much. What is owed is paid back over it: after a
  * short one the debt of long ones must not be asked for at once, as the force of that would be held over a long one. */
 static const double MEMORY = 0.9;
@@ -105,16 +107,33 @@ static double applied(const State *s, const Exchange *from, int through)
     return gets_mean(s) ? s->coupling.mean[through] : coupling_exchange_held(s, from, through);
 }
 
+double coupling_exchange_bend(const State *s, int across, double size)
+{
+    return size / (size + s->coupling.span[across]);
+}
+
+/* Twice the mean of u over the exchange that ends where the instance is. Under a force that is held, u goes on straight
+ * but for what else acts: how much that has changed is known where the inertia is. */
+static double twice_mean(const State *s, const Exchange *from, int i)
+{
+    const double u = s->v.at[coupling_info.across[i].input];
+    if (coupling_values_response(s, i) == 0.0) {
+        return from->across[i] + u;
+    }
+    const double bend = coupling_exchange_bend(s, i, s->v.time - from->time);
+    return from->across[i] + u - bend / 3.0 * (u - s->coupling.across[i]);
+}
+
 Exchange coupling_exchange_after(const State *s, const Exchange *from, const Impulses *impulses)
 {
     const Coupling *c = &s->coupling;
     const double size = s->v.time - from->time;
-    double sum = 0.0; /* of u at the start and at the end */
+    double sum = 0.0; /* of twice the means of u */
     Exchange next = {
         .time = s->v.time, .work = s->v.at[coupling_info.work], .period = fmax(size, MEMORY * from->period)};
     for (int i = 0; i < N_ACROSS; i++) {
         next.across[i] = s->v.at[coupling_info.across[i].input];
-        sum += coupling_info.across[i].sign * (from->across[i] + next.across[i]);
+        sum += coupling_info.across[i].sign * twice_mean(s, from, i);
     }
     for (int i = 0; i < N_THROUGH; i++) {
         const double missing = impulses->of[i] - from->impulse[i] - size * applied(s, from, i);

@@ -30,6 +30,11 @@ Impulses coupling_exchange_impulses(const State *s);
  * has not been made, what is predicted of it. */
 double coupling_exchange_held(const State *s, const Exchange *exchange, int through);
 
+/* What a u was wrong by at the end of an exchange of this size, it was wrong by on the way there, at the share s of it,
+ * (1 - q) s + q s^2 times. q is 0 if u was held while it moved steadily, 1 if its slope was right at the start, in
+ * between if the slope was that of the exchange before. */
+double coupling_exchange_bend(const State *s, int across, double size);
+
 /* What follows where the instance is, after these impulses, on an exchange that began earlier. */
 Exchange coupling_exchange_after(const State *s, const Exchange *from, const Impulses *impulses);
 

@@ -7,13 +7,7 @@
 
 #include "advance.h"
 #include "coupling_exchange.h"
-
-double coupling_response(const State *s, int i)
-{
-    const Across *u = &coupling_info.across[i];
-    const bool is_known = u->inertia != 0 && s->v.at[u->inertia] > 0.0;
-    return is_known ? u->sign / s->v.at[u->inertia] : 0.0;
-}
+#include "coupling_values.h"
 
 /* The slope of each u if the master holds `force` over the next exchange. */
 static void incline_for(State *s, double force)
@@ -22,9 +16,9 @@ static void incline_for(State *s, double force)
     const double more = force - coupling_exchange_held(s, &c->now, 0);
     for (int i = 0; i < N_ACROSS; i++) {
         const bool goes_on = !c->moves[i] || s->v.at[coupling_info.extrapolate] > 0.5;
-        if (goes_on && coupling_response(s, i) != 0.0) {
+        if (goes_on && coupling_values_response(s, i) != 0.0) {
             ramp_set(&s->ramp, (int)coupling_info.across[i].input - FIRST_INPUT,
-                     c->slope[i] + coupling_response(s, i) * more);
+                     c->slope[i] + coupling_values_response(s, i) * more);
         }
     }
 }
@@ -63,7 +57,7 @@ static bool is_inertia_known(const State *s)
 {
     bool is_known = false;
     for (int i = 0; i < N_ACROSS; i++) {
-        is_known = is_known || coupling_response(s, i) != 0.0;
+        is_known = is_known || coupling_values_response(s, i) != 0.0;
     }
     return is_known;
 }

@@ -9,9 +9,6 @@
 
 #if N_COUPLINGS > 0
 
-/* By how much the slope of this u rises with the force, 0 if its inertia is not known. */
-double coupling_response(const State *s, int across);
-
 /* The mean of each through over the next exchange, of this size, with the inputs moving on. Where an inertia is known
  * the master is taken to hold the mean of the first, and `owed` more; it is found on the line through two trials. */
 void coupling_predict(Instance *instance, double size, double owed, double means[]);

@@ -32,4 +32,11 @@ void coupling_values_still(const State *s, Variables *derivatives)
     }
 }
 
+double coupling_values_response(const State *s, int i)
+{
+    const Across *u = &coupling_info.across[i];
+    const bool is_known = u->inertia != 0 && s->v.at[u->inertia] > 0.0;
+    return is_known ? u->sign / s->v.at[u->inertia] : 0.0;
+}
+
 #endif

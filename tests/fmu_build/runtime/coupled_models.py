@@ -1,4 +1,4 @@
-"""A hand-written model with a coupling, and the same one without."""
+"""Hand-written models with a coupling of one and of two quantities each way, and the first one without."""
 
 from __future__ import annotations
 
@@ -85,3 +85,59 @@ TOWED = _towed()
 # The same without its coupling: the input is held, and the outputs are what the equations make them.
 _SHARED = {f.name: getattr(TOWED, f.name) for f in fields(Model) if f.name != "name"}
 TOWED_PLAIN = Model(name="TowedPlain", **_SHARED)
+
+
+def _joined() -> CoupledModel:
+    """A spring and a damper between two bodies that move at the speeds u (in front) and w; the spring's force apart."""
+    return CoupledModel(
+        "Joined",
+        (
+            Variable("x", 0.0, "m"),
+            Variable("impulse", 0.0, "N.s"),
+            Variable("spring_impulse", 0.0, "N.s"),
+            Variable("work", 0.0, "J"),
+        ),
+        """
+    const double force = v->k * v->x + v->damping * (v->w - v->u);
+    v->der_x = v->w - v->u;
+    v->der_impulse = force;
+    v->der_spring_impulse = v->k * v->x;
+    v->der_work = force * (v->u - v->w);""",
+        {(1, 0): "v->k", (2, 0): "v->k", (3, 0): "v->k * (v->u - v->w)"},
+        inputs=(
+            Variable("u", 0.0, "m/s", -50.0, 50.0),
+            Variable("a", 0.0, "m/s2"),
+            Variable("w", 0.0, "m/s", -50.0, 50.0),
+            Variable("b", 0.0, "m/s2"),
+        ),
+        parameters=(
+            Variable("k", 20.0, "N/m", 0.0),
+            Variable("damping", 0.0, "N.s/m", 0.0),
+            Variable("m_u", 0.0, "kg", 0.0),
+            Variable("m_w", 0.0, "kg", 0.0),
+            Variable("extrapolation", 1.0, "1", 0.0, 1.0),
+            Variable("applied", 3.0, "1", 1.0, 3.0),
+        ),
+        others=(
+            *(Variable(n, unit="N") for n in ("force", "mean", "hold", "spring", "spring_mean", "spring_hold")),
+            Variable("energy", unit="J"),
+        ),
+        outputs="""v->spring = v->spring_mean = v->spring_hold = v->k * v->x;
+    v->force = v->mean = v->hold = v->spring + v->damping * (v->w - v->u);
+    v->energy = 0.0;""",
+        tolerance=1e-11,
+        coupling=Coupling(
+            across=(Across("u", "a", "m_u", 1.0), Across("w", "b", "m_w", -1.0)),
+            through=(
+                Through("force", "impulse", "mean", "hold"),
+                Through("spring", "spring_impulse", "spring_mean", "spring_hold"),
+            ),
+            extrapolate="extrapolation",
+            work="work",
+            applied="applied",
+            energy="energy",
+        ),
+    )
+
+
+JOINED = _joined()
