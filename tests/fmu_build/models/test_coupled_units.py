@@ -1,4 +1,4 @@
-"""Trailer.fmu and Car.fmu, which are to be coupled: the files, the trailer behind a given speed, the pair."""
+"""Trailer, Car and Hitch.fmu, which are to be coupled: the files, the trailer behind a given speed, the pair."""
 
 from __future__ import annotations
 
@@ -27,8 +27,9 @@ Fmus = dict[tuple[str, int], Path]
 
 
 @pytest.fixture
-def fmus(pair_fmus: dict[int, dict[str, Path]]) -> Fmus:
-    return {(name, version): fmu for version, units in pair_fmus.items() for name, fmu in units.items()}
+def fmus(pair_fmus: dict[int, dict[str, Path]], hitch_fmus: dict[int, Path]) -> Fmus:
+    pairs = {(name, version): fmu for version, units in pair_fmus.items() for name, fmu in units.items()}
+    return pairs | {("Hitch", version): fmu for version, fmu in hitch_fmus.items()}
 
 
 @pytest.fixture
@@ -53,7 +54,7 @@ def start(fmus: Fmus, car_trailer_fmu: Path, tmp_path: Path) -> Iterator[Callabl
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [*NAMES, "Hitch"])
 def test_both_checkers_find_nothing(fmus: Fmus, name: str, version: int) -> None:
     assert validate_fmu(str(fmus[name, version])) == []
     command = [str(Path(sys.executable).with_name("fmutool")), "-input", str(fmus[name, version]), "-check"]
@@ -98,6 +99,27 @@ def test_the_two_hitches_fit(fmus: Fmus, car_trailer_fmus: dict[int, Path]) -> N
         assert {kind for _, kind in ends} == kinds
         assert {variable.causality for variable, _ in ends} == {"input", "output"}
         assert len({variable.unit for variable, _ in ends}) == 1
+
+
+def test_the_hitch_alone_fits_both_bodies(fmus: Fmus) -> None:
+    """In front as Trailer does; behind it gives the brake torque too, and what flows in there flows out in front."""
+    ports = terminals(fmus["Hitch", 3])
+    assert ports["hitch"] == {"v": ("v_car", "signal"), "F": ("F_hitch_hold", "outflow")}
+    assert ports["trailer"] == {
+        "v": ("v_trailer", "signal"),
+        "brake_torque": ("trailer_brake_torque_hold", "signal"),
+        "F": ("F_hitch_hold", "inflow"),
+    }
+
+
+def test_names_of_the_hitch(fmus: Fmus) -> None:
+    variables = fmpy.read_model_description(str(fmus["Hitch", 2])).modelVariables
+    by_causality = {kind: {v.name for v in variables if v.causality == kind} for kind in ("input", "output")}
+    assert by_causality["input"] == {"v_car", "v_trailer", "a_car", "a_trailer", "compression_in"}
+    assert by_causality["output"] == {
+        *(f"{name}{kind}" for name in ("F_hitch", "trailer_brake_torque") for kind in ("", "_mean", "_hold")),
+        "coupling_energy", "compression", "v_rel",
+    }  # fmt: skip
 
 
 def test_names_of_the_trailer(fmus: Fmus) -> None:
