@@ -20,7 +20,7 @@ def library_in(folder: Path, fmi2_folder: str) -> Path:
 
 
 OTHERS = ["x86_64-linux", "aarch64-linux", "x86_64-windows"]
-HITCH = ("a_car", "F_hitch", "F_hitch_hold", "trailer_brake_torque_hold", "compression", "coupling_energy")
+HITCH = ("a_trailer", "F_hitch", "F_hitch_hold", "trailer_brake_torque_hold", "compression", "coupling_energy")
 
 
 def differences(
@@ -63,5 +63,5 @@ def test_the_hitch_alone_too(
     extracted: Callable[[Path], Path],
     program: Callable[..., Program],
 ) -> None:
-    """Its coupling at work: the front end, told to accelerate, is found where it was after each step."""
+    """Its coupling at work: the trailer, told to accelerate, has the speed that it had after each step."""
     assert differences(name, everywhere_hitch, hitch_fmu, extracted, program, HITCH) == 0.0

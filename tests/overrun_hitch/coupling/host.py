@@ -73,8 +73,9 @@ def coupled(
     hitch: Unit, p: Parameters, brake_torque: float, sizes: Iterable[float], order: str = "parallel",
     count: Callable[[], int] = lambda: 1, **settings: float,
 ) -> Trace:  # fmt: skip
-    """Exchanges of these sizes (s), in the order "parallel", "hitch first" or "iterated"; the unit makes `count()`
-    steps to each."""
+    """Exchanges of these sizes (s), in the order "parallel", "hitch first" or "iterated"; or "late": parallel, but all
+    that is exchanged comes one exchange later. The unit makes `count()` steps to each.
+    """
     host = Host(p)
     own = {name: value for name, value in p.model_dump().items() if name in hitch.references}
     hitch.slave.reset()
@@ -87,16 +88,18 @@ def coupled(
     seen = ("compression", "coupling_energy", "drawbar.impulse", "brake_impulse", "drawbar.work")
     time, given, got = 0.0, np.zeros(2), 0.0
     rows = [(time, *host.state[4:], *hitch.get(*seen), *given, got)]
+    old = host.speeds, hitch.get(*outputs)
     for size in sizes:
-        before, held = host.state, hitch.get(*outputs)
-        hitch.set(**host.speeds)
+        before, new = host.state, (host.speeds, hitch.get(*outputs))
+        (speeds, held), old = (old if order == "late" else new), new
+        hitch.set(**speeds)
         if order == "iterated":
             held = _agreed(hitch, host, time, size, outputs, brake_torque)
         else:
             points = np.linspace(time, time + size, count() + 1)
             for here, length in zip(points[:-1], np.diff(points), strict=True):
                 hitch.slave.doStep(here, length)
-            held = held if order == "parallel" else hitch.get(*outputs)
+            held = hitch.get(*outputs) if order == "hitch first" else held
             host.step(size, *held, brake_torque)
         time, given = time + size, given + size * held
         got += held[0] * float((host.state - before)[4] - (host.state - before)[5])
