@@ -82,8 +82,9 @@ extern const unsigned relation_reference[AT_LEAST_ONE(N_RELATIONS)];
 
 #if N_COUPLINGS > 0
 
-/* The variables of a coupling, see coupling.h: their indices in Variables.at[]. variables.h says N_ACROSS and N_THROUGH,
- * how many quantities a master exchanges each way; the first through acts at every across, the others elsewhere. */
+/* The variables of a coupling, see coupling.h: their indices in Variables.at[]. variables.h says N_ACROSS and
+ * N_THROUGH, how many quantities a master exchanges each way; the first through acts at every across, the others
+ * elsewhere. */
 
 /* What a master holds over its steps, such as the speed of a body. */
 typedef struct {

@@ -50,21 +50,21 @@ typedef struct {
 
 /* What a coupling remembers, see coupling.h. */
 typedef struct {
-    bool stepped; /* there has been a step that led on in time */
-    bool moves[N_ACROSS];  /* the slope of u in the last one was the unit's own, so that its end is not what is set */
-    bool is_set[N_ACROSS]; /* u has been set since */
-    bool stands; /* the present exchange has begun with the value of the one before */
-    bool parted; /* it has had more than one step */
-    bool several;    /* and so had one of the last ones before it */
-    Exchange now;    /* the present one */
-    Exchange change; /* the last one that has begun with a new value */
+    bool stepped;            /* there has been a step that led on in time */
+    bool moves[N_ACROSS];    /* the slope of u in the last one was the unit's own, so that its end is not what is set */
+    bool is_set[N_ACROSS];   /* u has been set since */
+    bool stands;             /* the present exchange has begun with the value of the one before */
+    bool parted;             /* it has had more than one step */
+    bool several;            /* and so had one of the last ones before it */
+    Exchange now;            /* the present one */
+    Exchange change;         /* the last one that has begun with a new value */
     double before[N_ACROSS]; /* u at the start of the exchange before the present one */
     double interval;         /* the length of that one; 0: there was none */
     double applied;          /* the force that the master held over that one */
-    double usual;    /* the longest of the last ones from change to change; 0: there was none */
-    int doubts;      /* for so many more changes a value that stands is taken for one that is held */
-    double slope[N_ACROSS]; /* of u in the last step */
-    double span[N_ACROSS];  /* the time before it from which it was taken: 0: given, INFINITY: there was none */
+    double usual;            /* the longest of the last ones from change to change; 0: there was none */
+    int doubts;              /* for so many more changes a value that stands is taken for one that is held */
+    double slope[N_ACROSS];  /* of u in the last step */
+    double span[N_ACROSS];   /* the time before it from which it was taken: 0: given, INFINITY: there was none */
     /* At the end of the last step: */
     double across[N_ACROSS]; /* u as the slope has it */
     double through[N_THROUGH];

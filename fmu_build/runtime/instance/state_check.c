@@ -50,16 +50,16 @@ static const Field bool_fields[] = {
 };
 
 static const Field double_fields[] = {
-    FIELD(v.time),          FIELD(density.span),    FIELD(density.since),     FIELD(ramp.start),
-    FIELD(ramp.from),       FIELD(ramp.slope),      FIELD(integrator.length), FIELD(integrator.left_surface),
+    FIELD(v.time),           FIELD(density.span),    FIELD(density.since),     FIELD(ramp.start),
+    FIELD(ramp.from),        FIELD(ramp.slope),      FIELD(integrator.length), FIELD(integrator.left_surface),
 #if HAS_EVENTS
     FIELD(discrete.ticks),
 #endif
 #if N_COUPLINGS > 0
     FIELD(coupling.now), /* these two are of doubles alone */
-    FIELD(coupling.change), FIELD(coupling.before), FIELD(coupling.interval), FIELD(coupling.usual),
-    FIELD(coupling.applied), FIELD(coupling.slope), FIELD(coupling.across), FIELD(coupling.through),
-    FIELD(coupling.mean), FIELD(coupling.hold),
+    FIELD(coupling.change),  FIELD(coupling.before), FIELD(coupling.interval), FIELD(coupling.usual),
+    FIELD(coupling.applied), FIELD(coupling.slope),  FIELD(coupling.across),   FIELD(coupling.through),
+    FIELD(coupling.mean),    FIELD(coupling.hold),
 #endif
 };
 

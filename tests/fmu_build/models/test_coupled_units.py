@@ -238,6 +238,27 @@ def test_model_exchange_has_no_coupling(fmus: Fmus, version: int) -> None:
     assert np.all(result["coupling_energy"] == 0.0)
 
 
+@pytest.mark.parametrize("version", VERSIONS)
+def test_the_hitch_alone_in_model_exchange(fmus: Fmus, version: int) -> None:
+    """A trailer that catches up with a car, both of constant speed: the closed form, and nothing of the coupling."""
+    torques = tuple(force.replace("F_hitch", "trailer_brake_torque") for force in FORCES)
+    result = fmpy.simulate_fmu(
+        str(fmus["Hitch", version]),
+        fmi_type="ModelExchange",
+        stop_time=1.0,
+        output_interval=0.1,
+        start_values={"v_car": 20.0, "v_trailer": 20.1, "compression_start": -0.02, "M_front": 1000.0},
+        output=["compression", *FORCES, *torques, "coupling_energy"],
+    )
+    compression = -0.02 + 0.1 * result["time"]
+    np.testing.assert_allclose(result["compression"], compression, atol=1e-7)
+    for force, torque in zip(FORCES, torques, strict=True):
+        stiffness = np.where(compression < 0.0, 548e3, 5480.0)
+        np.testing.assert_allclose(result[force], stiffness * compression + 500.0 * 0.1, atol=0.06)
+        np.testing.assert_allclose(result[torque], np.maximum(16303.0 * compression, 0.0), atol=2e-3)
+    assert np.all(result["coupling_energy"] == 0.0)
+
+
 def test_the_pair_brakes_as_the_whole_does(start: Callable[..., Unit]) -> None:
     """Three seconds, both stepping at the same time: held force of the step's end, and what is offered instead."""
     size, steps = 0.01, 300

@@ -47,6 +47,10 @@ class Host:
         self.state = y
 
     @property
+    def gap(self) -> float:
+        return float(self.state[5] - self.state[4])
+
+    @property
     def speeds(self) -> dict[str, float]:
         return {"v_car": float(self.state[0]), "v_trailer": float(self.state[2])}
 
@@ -92,7 +96,7 @@ def coupled(
     for size in sizes:
         before, new = host.state, (host.speeds, hitch.get(*outputs))
         (speeds, held), old = (old if order == "late" else new), new
-        hitch.set(**speeds)
+        hitch.set(**speeds, compression_in=host.gap)
         if order == "iterated":
             held = _agreed(hitch, host, time, size, outputs, brake_torque)
         else:

@@ -130,6 +130,16 @@ def test_the_energy_of_a_hard_brake(hitch: Unit) -> None:
     assert made["masses"][1] < 0.2 * made["hold"][1]
 
 
+def test_the_gap_is_followed_under_way(hitch: Unit, exact: dict[float, float]) -> None:
+    """The growth rate stays, and the unit's compression moves by H / (2 T_gap) less than the gap does."""
+    T, H = 2.0, 0.01
+    trace = vibration(hitch, 500.0, H, T_gap=T)
+    moved = np.ptp(trace.compression[50:]) / np.ptp(trace.gap[50:])
+    print(f"error {growth(trace) - exact[500.0]:+.5f} 1/s, amplitude less by {1.0 - moved:.5f} of {H / (2.0 * T):.5f}")
+    assert growth(trace) == pytest.approx(exact[500.0], abs=ASKED[0.01])
+    assert 1.0 - moved == pytest.approx(H / (2.0 * T), rel=0.2)
+
+
 def peaks(hitch: Unit, whole: HitchUnit, figure: str, H: float, **settings: float) -> float:
     """The largest error of a peak of the compression, relative; infinite where there are others."""
     scenario = FIGURES[figure]
