@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+import fmpy
 import numpy as np
 import pytest
 
@@ -53,9 +54,11 @@ def test_a_cycle_costs_the_area_of_the_loop(bench: Unit, omega: float) -> None:
     assert area == pytest.approx(4.0 * F_f * (a - X_F) + np.pi * C * omega * a**2, rel=1e-3)
 
 
-def test_it_has_the_drawbar_of_car_and_trailer(bench: Unit) -> None:
+@pytest.mark.parametrize("name", ["Bench", "Hitch"])
+def test_it_has_the_drawbar_of_car_and_trailer(name: str) -> None:
     """The same names, defaults and ranges."""
-    own = {v.name: v for v in bench.description.modelVariables if v.causality == "parameter" and "." not in v.name}
+    variables = fmpy.read_model_description(str(kept_fmus(f"Systems.{name}", fmi=2)[name])).modelVariables
+    own = {v.name: v for v in variables if v.causality == "parameter" and "." not in v.name}
     ours = [name for name in own if name in Parameters.model_fields]
     assert {"k", "C", "F_f", "tau_b", "compression_start"} <= set(ours)
     for name in ours:

@@ -29,11 +29,13 @@ class Program:
     path: Path
     before: tuple[str, ...] = ()
 
-    def run(self, library: Path, fmu: Path, **environment: str) -> subprocess.CompletedProcess[str]:
-        """Run it on a library of the FMU."""
+    def run(
+        self, library: Path, fmu: Path, names: Sequence[str] = ("brake_torque", *OUTPUTS), **environment: str
+    ) -> subprocess.CompletedProcess[str]:
+        """Run it on a library of the FMU; the first of the names is what it sets, to 1000, the others are seen."""
         description = fmpy.read_model_description(str(fmu))
         references = {v.name: str(v.valueReference) for v in description.modelVariables}
-        arguments = [str(library), description.guid, *(references[name] for name in ("brake_torque", *OUTPUTS))]
+        arguments = [str(library), description.guid, *(references[name] for name in names)]
         return subprocess.run(
             [*self.before, str(self.path), *arguments],
             capture_output=True,
@@ -50,6 +52,16 @@ def everywhere_fmu(modelica_library: Path, tmp_path_factory: pytest.TempPathFact
         pytest.skip("the package ziglang is not installed")
     output = tmp_path_factory.mktemp("everywhere") / "CarTrailer.fmu"
     build(modelica_library, "OverrunHitch.Systems.CarTrailer", output, platforms=("all",))
+    return output
+
+
+@pytest.fixture(scope="session")
+def everywhere_hitch(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Hitch.fmu, likewise."""
+    if zig_compiler() is None:
+        pytest.skip("the package ziglang is not installed")
+    output = tmp_path_factory.mktemp("everywhere") / "Hitch.fmu"
+    build(modelica_library, "OverrunHitch.Systems.Hitch", output, platforms=("all",))
     return output
 
 

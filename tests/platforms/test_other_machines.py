@@ -19,7 +19,31 @@ def library_in(folder: Path, fmi2_folder: str) -> Path:
     return library
 
 
-@pytest.mark.parametrize("name", ["x86_64-linux", "aarch64-linux", "x86_64-windows"])
+OTHERS = ["x86_64-linux", "aarch64-linux", "x86_64-windows"]
+HITCH = ("a_trailer", "F_hitch", "F_hitch_hold", "trailer_brake_torque_hold", "compression", "coupling_energy")
+
+
+def differences(
+    name: str, everywhere: Path, here: Path, extracted: Callable[[Path], Path], program: Callable[..., Program],
+    names: tuple[str, ...],
+) -> float:  # fmt: skip
+    """The largest of what the program prints there and here, over the largest value of its column."""
+    platform = PLATFORMS[name]
+    result = program("step_brake", platform).run(
+        library_in(extracted(everywhere), platform.fmi2_folder), everywhere, names
+    )
+    assert result.returncode == 0, result.stderr
+    expected = program("step_brake").run(library_in(extracted(here), host_platform().fmi2_folder), here, names)
+    assert expected.returncode == 0, expected.stderr
+    ours, other = (np.array([row.split() for row in r.stdout.splitlines()], float) for r in (expected, result))
+    assert ours.shape == (601, len(names) - 1)
+    scale = np.abs(ours).max(axis=0)
+    worst = float((np.abs(other - ours) / scale).max())
+    print(f"{name}: {int((other == ours).sum())} of {ours.size} values bit-equal, largest difference {worst:.1e}")
+    return worst
+
+
+@pytest.mark.parametrize("name", OTHERS)
 def test_the_step_brake_is_that_of_this_machine(
     name: str,
     everywhere_fmu: Path,
@@ -27,16 +51,17 @@ def test_the_step_brake_is_that_of_this_machine(
     extracted: Callable[[Path], Path],
     program: Callable[..., Program],
 ) -> None:
-    platform = PLATFORMS[name]
-    there = program("step_brake", platform)
-    result = there.run(library_in(extracted(everywhere_fmu), platform.fmi2_folder), everywhere_fmu)
-    assert result.returncode == 0, result.stderr
-    host = library_in(extracted(car_trailer_fmu), host_platform().fmi2_folder)
-    expected = program("step_brake").run(host, car_trailer_fmu)
-    assert expected.returncode == 0, expected.stderr
-    here, other = (np.array([row.split() for row in r.stdout.splitlines()], float) for r in (expected, result))
-    assert here.shape == (601, len(OUTPUTS))
-    scale = np.abs(here).max(axis=0)
-    worst = float((np.abs(other - here) / scale).max())
-    print(f"{name}: {int((other == here).sum())} of {here.size} values bit-equal, largest difference {worst:.1e}")
-    assert worst <= 1e-12
+    names = ("brake_torque", *OUTPUTS)
+    assert differences(name, everywhere_fmu, car_trailer_fmu, extracted, program, names) <= 1e-12
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_the_hitch_alone_too(
+    name: str,
+    everywhere_hitch: Path,
+    hitch_fmu: Path,
+    extracted: Callable[[Path], Path],
+    program: Callable[..., Program],
+) -> None:
+    """Its coupling at work: the trailer, told to accelerate, has the speed that it had after each step."""
+    assert differences(name, everywhere_hitch, hitch_fmu, extracted, program, HITCH) == 0.0

@@ -9,7 +9,7 @@ from .when_equations import with_whens_restated
 
 
 def restated(text: str) -> str:
-    """The text with algorithm sections as equations, simpler when-clauses, parts of expressions lifted, ranges written."""
+    """The text with sections as equations, simpler when-clauses, parts of expressions lifted, ranges written out."""
     return with_parts_lifted(with_whens_restated(as_equations(with_ranges(text))))
 
 

@@ -16,6 +16,9 @@ void coupling_values_show(State *s);
 /* The derivatives by time of those outputs are 0: they are given once for a step, whatever the flow does meanwhile. */
 void coupling_values_still(const State *s, Variables *derivatives);
 
+/* By how much the slope of an input rises with the force, 0 if its inertia is not known. */
+double coupling_values_response(const State *s, int across);
+
 #else
 
 static inline void coupling_values_note(State *s, unsigned reference)

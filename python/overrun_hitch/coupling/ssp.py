@@ -56,7 +56,7 @@ def values(case: Parameters, units: Mapping[str, Described]) -> dict[str, float]
 
 def parameter_set(name: str, case: Parameters, units: Mapping[str, Described]) -> bytes:
     """The SSV of the case called `name`."""
-    top = root("ssv:ParameterSet", version="1.0", name=f"case {name}")
+    top = root("ssv:ParameterSet", version="1.0", name=f"case_{name}")
     parameters = add(top, "ssv:Parameters")
     used = []
     for path, value in values(case, units).items():
@@ -69,8 +69,8 @@ def parameter_set(name: str, case: Parameters, units: Mapping[str, Described]) -
 
 def structure(name: str, units: Mapping[str, Described]) -> bytes:
     """The SSD that binds the SSV of the case called `name`."""
-    top = root("ssd:SystemStructureDescription", version="1.0", name=f"Car and trailer, case {name}")
-    about = "Car and trailer with an overrun brake (Sharp 1982), both stepped at the same time"
+    about = f"Car and trailer with an overrun brake (Sharp 1982), case {name}, both stepped at the same time"
+    top = root("ssd:SystemStructureDescription", version="1.0", name=f"CarTrailer_case_{name}", description=about)
     system = add(top, "ssd:System", name="CarTrailer", description=about)
     owners = {**{port: to[0] for port, to in INPUTS.items()}, **OUTPUTS}
     used = add_connectors(system, [(port, units[element]) for port, element in owners.items()])

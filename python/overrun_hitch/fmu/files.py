@@ -16,7 +16,7 @@ from overrun_hitch.parameters import HitchError, unknown
 ROOT = Path(__file__).resolve().parents[3]
 LIBRARY = ROOT / "modelica" / "OverrunHitch"
 READY_MADE = Path(__file__).resolve().parents[1] / "fmus"  # put there by `make dist`
-NAMES = ("CarTrailer", "Car", "Trailer", "Bench")  # of classes, and of their files
+NAMES = ("CarTrailer", "Car", "Trailer", "Hitch", "Bench")  # of classes, and of their files
 VERSIONS = (2, 3)  # of FMI
 GENERATOR = ROOT / "fmu_build"
 SOURCES = {".mo", ".order", ".py", ".c", ".h"}
@@ -31,7 +31,7 @@ def place(name: str, fmi: int = 2) -> Path:
     return (ROOT / "build" if LIBRARY.is_dir() else READY_MADE) / f"fmi{fmi}" / f"{name}.fmu"
 
 
-CAR_TRAILER, CAR, TRAILER, BENCH = (place(name) for name in NAMES)
+CAR_TRAILER, CAR, TRAILER, HITCH, BENCH = (place(name) for name in NAMES)
 
 
 def is_current(fmu: Path = CAR_TRAILER) -> bool:

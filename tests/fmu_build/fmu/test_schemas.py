@@ -20,19 +20,19 @@ FILES = {
 
 
 @pytest.fixture(scope="module")
-def units(car_trailer_fmus: dict[int, Path], pair_fmus: dict[int, dict[str, Path]]) -> dict[tuple[str, int], Path]:
-    return {
-        (name, fmi): path
-        for fmi in (2, 3)
-        for name, path in {**pair_fmus[fmi], "CarTrailer": car_trailer_fmus[fmi]}.items()
-    }
+def units(
+    car_trailer_fmus: dict[int, Path], pair_fmus: dict[int, dict[str, Path]], hitch_fmus: dict[int, Path]
+) -> dict[tuple[str, int], Path]:
+    others = {"CarTrailer": car_trailer_fmus, "Hitch": hitch_fmus}
+    alone = {(name, fmi): path for name, fmus in others.items() for fmi, path in fmus.items()}
+    return alone | {(name, fmi): path for fmi, fmus in pair_fmus.items() for name, path in fmus.items()}
 
 
 @pytest.mark.full
 @pytest.mark.parametrize(("fmi", "file"), [(fmi, file) for fmi in FILES for file in FILES[fmi]])
 def test_valid(units: dict[tuple[str, int], Path], fmi: int, file: str) -> None:
     schema = etree.XMLSchema(etree.parse(str(SCHEMAS / FILES[fmi][file])))
-    for name in ("CarTrailer", "Car", "Trailer"):
+    for name in ("CarTrailer", "Car", "Trailer", "Hitch"):
         with zipfile.ZipFile(units[name, fmi]) as archive:
             document = etree.fromstring(archive.read(file))
         schema.assertValid(document)

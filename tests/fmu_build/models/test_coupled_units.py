@@ -1,4 +1,4 @@
-"""Trailer.fmu and Car.fmu, which are to be coupled: the files, the trailer behind a given speed, the pair."""
+"""Trailer, Car and Hitch.fmu, which are to be coupled: the files, the trailer behind a given speed, the pair."""
 
 from __future__ import annotations
 
@@ -27,8 +27,9 @@ Fmus = dict[tuple[str, int], Path]
 
 
 @pytest.fixture
-def fmus(pair_fmus: dict[int, dict[str, Path]]) -> Fmus:
-    return {(name, version): fmu for version, units in pair_fmus.items() for name, fmu in units.items()}
+def fmus(pair_fmus: dict[int, dict[str, Path]], hitch_fmus: dict[int, Path]) -> Fmus:
+    pairs = {(name, version): fmu for version, units in pair_fmus.items() for name, fmu in units.items()}
+    return pairs | {("Hitch", version): fmu for version, fmu in hitch_fmus.items()}
 
 
 @pytest.fixture
@@ -53,7 +54,7 @@ def start(fmus: Fmus, car_trailer_fmu: Path, tmp_path: Path) -> Iterator[Callabl
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [*NAMES, "Hitch"])
 def test_both_checkers_find_nothing(fmus: Fmus, name: str, version: int) -> None:
     assert validate_fmu(str(fmus[name, version])) == []
     command = [str(Path(sys.executable).with_name("fmutool")), "-input", str(fmus[name, version]), "-check"]
@@ -98,6 +99,27 @@ def test_the_two_hitches_fit(fmus: Fmus, car_trailer_fmus: dict[int, Path]) -> N
         assert {kind for _, kind in ends} == kinds
         assert {variable.causality for variable, _ in ends} == {"input", "output"}
         assert len({variable.unit for variable, _ in ends}) == 1
+
+
+def test_the_hitch_alone_fits_both_bodies(fmus: Fmus) -> None:
+    """In front as Trailer does; behind it gives the brake torque too, and what flows in there flows out in front."""
+    ports = terminals(fmus["Hitch", 3])
+    assert ports["hitch"] == {"v": ("v_car", "signal"), "F": ("F_hitch_hold", "outflow")}
+    assert ports["trailer"] == {
+        "v": ("v_trailer", "signal"),
+        "brake_torque": ("trailer_brake_torque_hold", "signal"),
+        "F": ("F_hitch_hold", "inflow"),
+    }
+
+
+def test_names_of_the_hitch(fmus: Fmus) -> None:
+    variables = fmpy.read_model_description(str(fmus["Hitch", 2])).modelVariables
+    by_causality = {kind: {v.name for v in variables if v.causality == kind} for kind in ("input", "output")}
+    assert by_causality["input"] == {"v_car", "v_trailer", "a_car", "a_trailer", "compression_in"}
+    assert by_causality["output"] == {
+        *(f"{name}{kind}" for name in ("F_hitch", "trailer_brake_torque") for kind in ("", "_mean", "_hold")),
+        "coupling_energy", "compression", "v_rel",
+    }  # fmt: skip
 
 
 def test_names_of_the_trailer(fmus: Fmus) -> None:
@@ -213,6 +235,27 @@ def test_model_exchange_has_no_coupling(fmus: Fmus, version: int) -> None:
     assert np.ptp(result["F_hitch"]) > 10.0
     assert np.array_equal(result["F_hitch"], result["F_hitch_mean"])
     assert np.array_equal(result["F_hitch"], result["F_hitch_hold"])
+    assert np.all(result["coupling_energy"] == 0.0)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_the_hitch_alone_in_model_exchange(fmus: Fmus, version: int) -> None:
+    """A trailer that catches up with a car, both of constant speed: the closed form, and nothing of the coupling."""
+    torques = tuple(force.replace("F_hitch", "trailer_brake_torque") for force in FORCES)
+    result = fmpy.simulate_fmu(
+        str(fmus["Hitch", version]),
+        fmi_type="ModelExchange",
+        stop_time=1.0,
+        output_interval=0.1,
+        start_values={"v_car": 20.0, "v_trailer": 20.1, "compression_start": -0.02, "M_front": 1000.0},
+        output=["compression", *FORCES, *torques, "coupling_energy"],
+    )
+    compression = -0.02 + 0.1 * result["time"]
+    np.testing.assert_allclose(result["compression"], compression, atol=1e-7)
+    for force, torque in zip(FORCES, torques, strict=True):
+        stiffness = np.where(compression < 0.0, 548e3, 5480.0)
+        np.testing.assert_allclose(result[force], stiffness * compression + 500.0 * 0.1, atol=0.06)
+        np.testing.assert_allclose(result[torque], np.maximum(16303.0 * compression, 0.0), atol=2e-3)
     assert np.all(result["coupling_energy"] == 0.0)
 
 

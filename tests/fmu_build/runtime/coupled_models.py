@@ -1,36 +1,41 @@
-"""A hand-written model with a coupling, and the same one without."""
+"""Hand-written models with a coupling of one and of two quantities each way, and the first one without."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 
+from fmu_build.ir.models import Across, Coupling, Through
 from tests.fmu_build.runtime.hand_written import Model, Variable
+
+COUPLING = Coupling(
+    across=(Across("u", "a", None, 1.0),),
+    through=(Through("force", "impulse", "mean", "hold"),),
+    extrapolate="extrapolation",
+    work="work",
+    applied="applied",
+    energy="energy",
+)
 
 
 @dataclass(frozen=True)
 class CoupledModel(Model):
-    coupling: dict[str, str] = field(default_factory=dict)  # CouplingInfo: field to name
+    coupling: Coupling = COUPLING
 
     def header(self) -> str:
-        return super().header().replace("N_COUPLINGS 0", "N_COUPLINGS 1")
+        sizes = f"enum {{ N_ACROSS = {len(self.coupling.across)}, N_THROUGH = {len(self.coupling.through)} }};"
+        return super().header().replace("N_COUPLINGS 0", f"N_COUPLINGS 1\n{sizes}")
 
     def source(self) -> str:
-        rows = "".join(f" .{key} = {self.references()[name]}," for key, name in self.coupling.items())
-        return f"{super().source()}const CouplingInfo coupling_info = {{{rows}}};\n"
+        return f"{super().source()}const CouplingInfo coupling_info = {self.initializer(self.coupling)};\n"
 
-
-COUPLING = {
-    "across": "u",
-    "across_derivative": "a",
-    "extrapolate": "extrapolation",
-    "through": "force",
-    "impulse": "impulse",
-    "work": "work",
-    "mean": "mean",
-    "hold": "hold",
-    "applied": "applied",
-    "energy": "energy",
-}
+    def initializer(self, value: Coupling | Across | Through | tuple[Across | Through, ...] | str | float) -> str:
+        """References of names, within braces as records and lists are; fields in their order, 0 for None."""
+        if isinstance(value, str):
+            return str(self.references()[value])
+        if isinstance(value, float):
+            return repr(value)
+        parts = value if isinstance(value, tuple) else (getattr(value, f.name) for f in fields(value))
+        return f"{{{', '.join('0' if part is None else self.initializer(part) for part in parts)}}}"
 
 
 def _towed() -> CoupledModel:
@@ -73,7 +78,6 @@ def _towed() -> CoupledModel:
         outputs=f"v->force = v->mean = v->hold = {force}; v->energy = 0.0;",
         relations=(("x > 0", "v->x"),),
         tolerance=1e-11,
-        coupling=COUPLING,
     )
 
 
@@ -81,3 +85,59 @@ TOWED = _towed()
 # The same without its coupling: the input is held, and the outputs are what the equations make them.
 _SHARED = {f.name: getattr(TOWED, f.name) for f in fields(Model) if f.name != "name"}
 TOWED_PLAIN = Model(name="TowedPlain", **_SHARED)
+
+
+def _joined() -> CoupledModel:
+    """A spring and a damper between two bodies that move at the speeds u (in front) and w; the spring's force apart."""
+    return CoupledModel(
+        "Joined",
+        (
+            Variable("x", 0.0, "m"),
+            Variable("impulse", 0.0, "N.s"),
+            Variable("spring_impulse", 0.0, "N.s"),
+            Variable("work", 0.0, "J"),
+        ),
+        """
+    const double force = v->k * v->x + v->damping * (v->w - v->u);
+    v->der_x = v->w - v->u;
+    v->der_impulse = force;
+    v->der_spring_impulse = v->k * v->x;
+    v->der_work = force * (v->u - v->w);""",
+        {(1, 0): "v->k", (2, 0): "v->k", (3, 0): "v->k * (v->u - v->w)"},
+        inputs=(
+            Variable("u", 0.0, "m/s", -50.0, 50.0),
+            Variable("a", 0.0, "m/s2"),
+            Variable("w", 0.0, "m/s", -50.0, 50.0),
+            Variable("b", 0.0, "m/s2"),
+        ),
+        parameters=(
+            Variable("k", 20.0, "N/m", 0.0),
+            Variable("damping", 0.0, "N.s/m", 0.0),
+            Variable("m_u", 0.0, "kg", 0.0),
+            Variable("m_w", 0.0, "kg", 0.0),
+            Variable("extrapolation", 1.0, "1", 0.0, 1.0),
+            Variable("applied", 3.0, "1", 1.0, 3.0),
+        ),
+        others=(
+            *(Variable(n, unit="N") for n in ("force", "mean", "hold", "spring", "spring_mean", "spring_hold")),
+            Variable("energy", unit="J"),
+        ),
+        outputs="""v->spring = v->spring_mean = v->spring_hold = v->k * v->x;
+    v->force = v->mean = v->hold = v->spring + v->damping * (v->w - v->u);
+    v->energy = 0.0;""",
+        tolerance=1e-11,
+        coupling=Coupling(
+            across=(Across("u", "a", "m_u", 1.0), Across("w", "b", "m_w", -1.0)),
+            through=(
+                Through("force", "impulse", "mean", "hold"),
+                Through("spring", "spring_impulse", "spring_mean", "spring_hold"),
+            ),
+            extrapolate="extrapolation",
+            work="work",
+            applied="applied",
+            energy="energy",
+        ),
+    )
+
+
+JOINED = _joined()

@@ -7,12 +7,12 @@ import subprocess
 import sys
 from pathlib import Path
 
-from tests.fmu_build.runtime.coupled_models import TOWED
+from tests.fmu_build.runtime.coupled_models import JOINED, TOWED
 from tests.fmu_build.runtime.hand_written import Model
 from tests.fmu_build.runtime.runtime_models import CAR_TRAILER, NO_STATES, OSCILLATOR, PARADOX, SINGULAR, SLIDING
 from tests.fmu_build.runtime.runtime_unit import compile_sources
 
-MODELS = (CAR_TRAILER, OSCILLATOR, SINGULAR, SLIDING, PARADOX, NO_STATES, TOWED)
+MODELS = (CAR_TRAILER, OSCILLATOR, SINGULAR, SLIDING, PARADOX, NO_STATES, TOWED, JOINED)
 FLAGS = "-std=gnu11 -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -Wall -Wextra -Werror".split()
 
 

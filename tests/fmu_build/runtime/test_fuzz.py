@@ -27,9 +27,9 @@ def test_random_calls(model: Model, fmi: int) -> None:
 
 
 @pytest.mark.full
-@pytest.mark.parametrize("fmi", sampled([2, 3], [3]))
-def test_random_calls_of_a_generated_model_with_a_coupling(fmi: int, modelica_library: Path) -> None:
-    random_calls(fuzzer(generate(modelica_library, "OverrunHitch.Systems.Trailer"), fmi))
+@pytest.mark.parametrize(("system", "fmi"), spread(["Trailer", "Hitch"], [2, 3]))
+def test_random_calls_of_a_generated_model_with_a_coupling(system: str, fmi: int, modelica_library: Path) -> None:
+    random_calls(fuzzer(generate(modelica_library, f"OverrunHitch.Systems.{system}"), fmi))
 
 
 @pytest.mark.parametrize("fmi", sampled([2, 3], [2]))
