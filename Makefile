@@ -4,7 +4,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
-UNITS := CarTrailer Car Trailer Bench
+UNITS := CarTrailer Car Trailer Hitch Bench
 FMUS := $(foreach unit,$(UNITS),build/fmi2/$(unit).fmu build/fmi3/$(unit).fmu)
 READY_MADE := python/overrun_hitch/fmus
 DIST := $(foreach unit,$(UNITS),$(READY_MADE)/fmi2/$(unit).fmu $(READY_MADE)/fmi3/$(unit).fmu)

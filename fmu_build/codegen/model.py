@@ -13,6 +13,7 @@ from ..ir.equations import Variable
 from ..ir.models import (
     DEFAULT_TOLERANCE,
     TOKEN_PLACEHOLDER,
+    Across,
     Coupling,
     CSources,
     JacobianModel,
@@ -20,6 +21,7 @@ from ..ir.models import (
     LoopPartials,
     Partials,
     SortedModel,
+    Through,
 )
 from ..ir.symbols import TIME
 from .events import event_sizes, print_events
@@ -45,7 +47,7 @@ def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str, coupli
     """variables.h and model.c of ``model``, with the all-zero placeholder where the content hash will stand."""
     check_stack(model, jacobian)
     names = identifiers(model.value_references)
-    header = _header(model, identifier, names, n_couplings=0 if coupling is None else 1)
+    header = _header(model, identifier, names, coupling)
     printer = Printer(names, _locals(jacobian), steady(model), numbered(model))
     text = _model(model, jacobian, printer) + _coupling(coupling, model) + print_events(model, printer)
     return CSources({"variables.h": header, "model.c": text})
@@ -60,7 +62,7 @@ def _locals(jacobian: JacobianModel) -> dict[str, str]:
     return identifiers(names)
 
 
-def _header(model: SortedModel, identifier: str, names: dict[str, str], n_couplings: int) -> str:
+def _header(model: SortedModel, identifier: str, names: dict[str, str], coupling: Coupling | None) -> str:
     tolerance = model.experiment.tolerance or DEFAULT_TOLERANCE
     fields = "\n".join(f"        double {c}; {comment(name)}" for name, c in names.items())
     return f"""{comment(f"Generated from {model.name}: the table of variables. Its order is the FMI value reference.")}
@@ -72,7 +74,7 @@ def _header(model: SortedModel, identifier: str, names: dict[str, str], n_coupli
 #define MODEL_NAME {string(identifier)}
 #define MODEL_TOKEN "{TOKEN_PLACEHOLDER}"
 #define DEFAULT_TOLERANCE {tolerance!r}
-#define N_COUPLINGS {n_couplings}
+#define N_COUPLINGS {0 if coupling is None else 1}
 #define N_LOOPS {len(numbered(model))}
 #define HAS_EVENTS {int(not model.schedule.is_empty)}
 
@@ -81,7 +83,7 @@ enum {{
     N_INPUTS = {len(model.inputs)},
     N_PARAMETERS = {len(model.parameters)},
     N_RELATIONS = {len(model.relations)},
-    N_VARIABLES = {len(names)}{event_sizes(model)}
+    N_VARIABLES = {len(names)}{event_sizes(model)}{_coupling_sizes(coupling)}
 }};
 
 typedef union {{
@@ -133,16 +135,32 @@ const unsigned relation_reference[AT_LEAST_ONE(N_RELATIONS)] = {{{", ".join(refe
 """ + "\n".join(sections)
 
 
+def _coupling_sizes(coupling: Coupling | None) -> str:
+    if coupling is None:
+        return ""
+    return f",\n    N_ACROSS = {len(coupling.across)},\n    N_THROUGH = {len(coupling.through)}"
+
+
 def _coupling(coupling: Coupling | None, model: SortedModel) -> str:
     """The table of the coupling's variables, if there is one."""
     if coupling is None:
         return ""
-    rows = [
-        f"    .{field.name} = {model.value_references[name]}, {comment(name)}"
-        for field in fields(coupling)
-        for name in [getattr(coupling, field.name)]
-    ]
-    return "\n".join(["", "const CouplingInfo coupling_info = {", *rows, "};", ""])
+    return "\n".join(["", "const CouplingInfo coupling_info = {", ",\n".join(_fields(coupling, model)), "};", ""])
+
+
+def _fields(record: Coupling | Across | Through, model: SortedModel) -> list[str]:
+    """The initializers of a record's fields: names as value references, what is None left out."""
+    lines = []
+    for field in fields(record):
+        value = getattr(record, field.name)
+        if isinstance(value, str):
+            lines.append(f"    .{field.name} = {model.value_references[value]} {comment(value)}")
+        elif isinstance(value, tuple):
+            rows = ",\n".join(f"        {{{', '.join(map(str.strip, _fields(one, model)))}}}" for one in value)
+            lines.append(f"    .{field.name} = {{\n{rows}}}")
+        elif value is not None:
+            lines.append(f"    .{field.name} = {value!r}")
+    return lines
 
 
 Direction = Callable[[Iterable[Partials | LoopPartials], Printer], list[str]]

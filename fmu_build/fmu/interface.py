@@ -15,7 +15,6 @@ from ..ir.models import DEFAULT_TOLERANCE, JacobianModel, Ports, SortedModel, Te
 from ..ir.symbols import TIME
 from ..ir.units import conversion
 from .dependency_kinds import DEPENDENT, dependency_kinds
-from .ports import REPLACED
 
 GENERATION_TOOL = "OverrunHitch fmu_build"
 NO_PORTS = Ports()
@@ -184,7 +183,7 @@ def _experiment(model: SortedModel) -> dict[str, str]:
 def _known_kinds(model: SortedModel, jacobian: JacobianModel, ports: Ports) -> dict[str, dict[str, str]]:
     """Kinds of dependencies, of what they are known. In Co-Simulation a coupling puts values of its own in place of
     some outputs: of those nothing is said."""
-    replaced = () if ports.coupling is None else [getattr(ports.coupling, key) for key in REPLACED]
+    replaced = () if ports.coupling is None else ports.coupling.replaced
     kinds = dependency_kinds(model, jacobian)
     return {name: ways for name, ways in kinds.items() if name not in replaced}
 

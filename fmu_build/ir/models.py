@@ -35,19 +35,40 @@ class Claims:
 
 
 @dataclass(frozen=True)
+class Across:
+    """Names of the variables of what a master holds, and the sign with which the first through acts there."""
+
+    input: str
+    derivative: str
+    inertia: str | None
+    sign: float
+
+
+@dataclass(frozen=True)
+class Through:
+    """Names of the variables of what is given back."""
+
+    output: str
+    impulse: str
+    mean: str
+    hold: str
+
+
+@dataclass(frozen=True)
 class Coupling:
     """Names of the variables of a coupling; what each is for stands in runtime/model.h."""
 
-    across: str
-    across_derivative: str
+    across: tuple[Across, ...]
+    through: tuple[Through, ...]
     extrapolate: str
-    through: str
-    impulse: str
     work: str
-    mean: str
-    hold: str
     applied: str
     energy: str
+
+    @property
+    def replaced(self) -> tuple[str, ...]:
+        """The outputs that get other values in Co-Simulation, so that nothing may be calculated from them."""
+        return (*(name for through in self.through for name in (through.mean, through.hold)), self.energy)
 
 
 @dataclass(frozen=True)

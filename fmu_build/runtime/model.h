@@ -80,23 +80,40 @@ extern const char *const relation_text[AT_LEAST_ONE(N_RELATIONS)];
  * has no rounding errors: it is a time less the present one. */
 extern const unsigned relation_reference[AT_LEAST_ONE(N_RELATIONS)];
 
-/* The variables of a coupling, see coupling.h: their indices in Variables.at[]. In the model's equations mean and hold
- * equal through, and energy is zero; nothing else may depend on these three, because Co-Simulation replaces them. */
+#if N_COUPLINGS > 0
+
+/* The variables of a coupling, see coupling.h: their indices in Variables.at[]. variables.h says N_ACROSS and N_THROUGH,
+ * how many quantities a master exchanges each way; the first through acts at every across, the others elsewhere. */
+
+/* What a master holds over its steps, such as the speed of a body. */
 typedef struct {
-    unsigned across;            /* input that a master holds over its steps, such as a speed */
-    unsigned across_derivative; /* input: its derivative by time, 0 if the master does not know it */
-    unsigned extrapolate;       /* parameter: above 0.5, across goes on as it has changed over the last step */
-    unsigned through;           /* output: what is given back, such as a force; through * across is a power */
-    unsigned impulse;           /* state: the integral of through */
-    unsigned work;              /* state: the integral of through * across */
-    unsigned mean;              /* output: mean of through over the last step */
-    unsigned hold;              /* output: what a master should hold over the next step */
-    unsigned applied;           /* parameter: what the master applies: 1 through, 2 mean, 3 hold */
-    unsigned energy;            /* output: energy that the coupling has made so far */
+    unsigned input;
+    unsigned derivative; /* input: its derivative by time, 0 if the master does not know it */
+    unsigned inertia;    /* parameter: what the first through accelerates there, 0 if it is not known; none: the time */
+    double sign;         /* 1 or -1: the sense in which the first through acts there */
+} Across;
+
+/* What is given back for it, such as a force. In the model's equations mean and hold equal the output. */
+typedef struct {
+    unsigned output;
+    unsigned impulse; /* state: its integral */
+    unsigned mean;    /* output: its mean over the last step */
+    unsigned hold;    /* output: what a master should hold over the next step; it keeps to its range */
+} Through;
+
+/* Nothing may depend on means, holds and the energy, which is zero in the model's equations, because Co-Simulation
+ * replaces them. */
+typedef struct {
+    Across across[N_ACROSS];
+    Through through[N_THROUGH];
+    unsigned extrapolate; /* parameter: above 0.5, each across goes on as it has changed over the last step */
+    unsigned work;        /* state: the integral of the power that is given, first through * sum of sign * across */
+    unsigned applied;     /* parameter: what the master applies: 1 the output itself, 2 mean, 3 hold */
+    unsigned energy;      /* output: energy that the coupling has made so far */
 } CouplingInfo;
 
-#if N_COUPLINGS > 0
 extern const CouplingInfo coupling_info;
+
 #endif
 
 /* Where the N_JACOBIAN entries of the Jacobian J stand, and where its N_FACTORS factors do: those of L, D, U in the

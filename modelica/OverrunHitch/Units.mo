@@ -19,6 +19,7 @@ package Units "Physical quantities with their units and admissible ranges"
   type Force = Real(final quantity="Force", final unit="N") "Force";
   type Torque = Real(final quantity="Torque", final unit="N.m") "Torque";
   type Impulse = Real(final quantity="Impulse", final unit="N.s", nominal=100) "Impulse";
+  type AngularImpulse = Real(final quantity="AngularImpulse", final unit="N.m.s", nominal=100) "Angular impulse";
   type Energy = Real(final quantity="Energy", final unit="J", nominal=1000) "Energy";
   type Stiffness = Real(final quantity="TranslationalSpringConstant", final unit="N/m", min=0, max=1e9) "Stiffness";
   type Damping = Real(final quantity="TranslationalDampingConstant", final unit="N.s/m", min=0, max=1e9) "Damper coefficient";

@@ -24,7 +24,7 @@ def wheel() -> Path:
 
 def test_it_brings_the_fmus_for_all_systems(wheel: Path) -> None:
     with zipfile.ZipFile(wheel) as archive:
-        for name in ("CarTrailer", "Car", "Trailer", "Bench"):
+        for name in ("CarTrailer", "Car", "Trailer", "Hitch", "Bench"):
             assert f"overrun_hitch/fmus/fmi3/{name}.fmu" in archive.namelist()
             with archive.open(f"overrun_hitch/fmus/fmi2/{name}.fmu") as fmu, zipfile.ZipFile(fmu) as unit:
                 assert {f"binaries/{file.format(name)}" for file in LIBRARIES} <= set(unit.namelist())

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "advance.h"
 #include "coupling_exchange.h"
+#include "coupling_prediction.h"
 #include "coupling_values.h"
 #include "finite.h"
 #include "lu.h"
@@ -15,19 +15,26 @@
 /* A change of u over an exchange so much shorter than the next one is mostly rounding: the slope stays what it was. */
 static const double TELLING = 1e-6;
 
-static double *across(State *s) { return &s->v.at[coupling_info.across]; }
+static double *across(State *s, int i) { return &s->v.at[coupling_info.across[i].input]; }
 
-/* u was wrong by `error` at the end of an exchange of this size. On the way there, at the share s of it, it was wrong
- * by error ((1 - q) s + q s^2): q is 0 if u was held while it moved steadily, 1 if its slope was right at the start, in
- * between if the slope was that of the exchange before. The integral of this, times df/du, is what the states lack; how
- * that has gone on until now is right to second order, and bounded where the model is stiff. */
-static void correct(Instance *instance, double error, double size)
+/* How what each u was wrong by went on over an exchange: at the share s of it by (1 - q) s + q s^2 of what it is at the
+ * end. q is 0 if u was held while it moved steadily, 1 if its slope was right at the start, in between if the slope was
+ * that of the exchange before. */
+static double bend(const State *s, int i, double size) { return size / (size + s->coupling.span[i]); }
+
+/* Each u was wrong by an error at the end of an exchange of this size. The integral of that over the exchange, times
+ * df/du, is what the states lack; how that has gone on until now is right to second order, and bounded where the model
+ * is stiff. */
+static void correct(Instance *instance, const double errors[], double size)
 {
     State *s = &instance->state;
     Rodas *r = &instance->rodas; /* room for the work */
-    const double q = size / (size + s->coupling.span);
     Variables d = {.at = {0.0}};
-    d.at[coupling_info.across] = error * size * (0.5 - q / 6.0);
+    double q = 0.0;
+    for (int i = 0; i < N_ACROSS; i++) {
+        d.at[coupling_info.across[i].input] = errors[i] * size * (0.5 - bend(s, i, size) / 6.0);
+        q += bend(s, i, size) / N_ACROSS;
+    }
     model_tangent(&s->v, s->holds, false, &d);
     model_jacobian(&s->v, s->holds, r->jacobian, r->time_derivative);
     const double per_lag = (6.0 - 2.0 * q) / (size * (2.0 - q));
@@ -45,10 +52,10 @@ static void correct(Instance *instance, double error, double size)
     }
 }
 
-static void put(State *s, double value)
+static void put(State *s, int i, double value)
 {
-    if (*across(s) != value) {
-        *across(s) = value;
+    if (*across(s, i) != value) {
+        *across(s, i) = value;
         s->settled = s->current = false;
     }
 }
@@ -58,9 +65,11 @@ static void go_on(State *s)
 {
     Coupling *c = &s->coupling;
     c->parted = true;
-    put(s, c->across);
-    if (c->across != c->now.across) {
-        integrator_discontinuity(&s->integrator);
+    for (int i = 0; i < N_ACROSS; i++) {
+        put(s, i, c->across[i]);
+        if (c->across[i] != c->now.across[i]) {
+            integrator_discontinuity(&s->integrator);
+        }
     }
 }
 
@@ -69,62 +78,77 @@ static void exchange(Instance *instance, double size)
 {
     State *s = &instance->state;
     const Coupling *c = &s->coupling;
-    const double impulse = s->v.at[coupling_info.impulse];
-    const double error = *across(s) - c->across;
-    coupling_exchange_review(s, size);
-    if (error != 0.0 && s->v.at[coupling_info.extrapolate] > 0.5) {
-        correct(instance, error, s->v.time - c->now.time);
+    const Impulses impulses = coupling_exchange_impulses(s);
+    double errors[N_ACROSS];
+    bool wrong = false;
+    for (int i = 0; i < N_ACROSS; i++) {
+        errors[i] = *across(s, i) - c->across[i];
+        wrong = wrong || errors[i] != 0.0;
     }
-    coupling_exchange_next(s, impulse);
+    coupling_exchange_review(s, size);
+    if (wrong && s->v.at[coupling_info.extrapolate] > 0.5) {
+        correct(instance, errors, s->v.time - c->now.time);
+    }
+    coupling_exchange_next(s, &impulses);
 }
 
 static void begin_first(State *s)
 {
     Coupling *c = &s->coupling;
-    c->through = c->hold = s->v.at[coupling_info.through];
-    c->now = (Exchange){.time = s->v.time,
-                        .across = *across(s),
-                        .through = c->through,
-                        .hold = c->hold,
-                        .impulse = s->v.at[coupling_info.impulse],
-                        .work = s->v.at[coupling_info.work]};
+    c->now = (Exchange){.time = s->v.time, .work = s->v.at[coupling_info.work]};
+    for (int i = 0; i < N_ACROSS; i++) {
+        c->now.across[i] = *across(s, i);
+    }
+    for (int i = 0; i < N_THROUGH; i++) {
+        const Through *through = &coupling_info.through[i];
+        c->through[i] = c->hold[i] = s->v.at[through->output];
+        c->now.through[i] = c->now.hold[i] = c->through[i];
+        c->now.impulse[i] = s->v.at[through->impulse];
+    }
+    c->applied = c->through[0];
     c->change = c->now;
 }
 
-/* The slope of u that is expected, and over which time before the exchange it has been observed. */
-static double expected_slope(const State *s, double size, double *span)
+/* The slope of u that is expected, and over which time before the exchange it has been observed. What acts there beside
+ * the force is taken to go on as it was. */
+static double expected_slope(const State *s, int i, double size, double *span)
 {
     const Coupling *c = &s->coupling;
-    const double given = s->v.at[coupling_info.across_derivative];
+    const double given = s->v.at[coupling_info.across[i].derivative];
+    const bool extrapolates = c->stepped && s->v.at[coupling_info.extrapolate] > 0.5;
+    const double more =
+        extrapolates ? coupling_response(s, i) * (coupling_exchange_held(s, &c->now, 0) - c->applied) : 0.0;
     if (given != 0.0) {
         *span = 0.0;
-        return given;
+        return given + more;
     }
-    if (!c->stepped || s->v.at[coupling_info.extrapolate] <= 0.5) {
+    if (!extrapolates) {
         *span = (double)INFINITY;
         return 0.0;
     }
     if (s->v.time > c->now.time || c->interval < TELLING * size) {
-        return c->slope;
+        return c->slope[i];
     }
     *span = c->interval;
-    return (c->now.across - c->before) / c->interval;
+    return (c->now.across[i] - c->before[i]) / c->interval + more;
 }
 
 static void incline(State *s, double size)
 {
-    const int input = (int)coupling_info.across - FIRST_INPUT;
     Coupling *c = &s->coupling;
-    c->moves = !coupling_exchange_has_slope(s);
-    if (!c->moves) {
-        c->span = 0.0;
-        c->slope = s->ramp.slope[input];
-        return;
-    }
-    const double slope = expected_slope(s, size, &c->span);
-    c->slope = isfinite(slope) ? slope : 0.0;
-    if (c->slope != 0.0) {
-        ramp_set(&s->ramp, input, c->slope);
+    for (int i = 0; i < N_ACROSS; i++) {
+        const int input = (int)coupling_info.across[i].input - FIRST_INPUT;
+        c->moves[i] = !coupling_exchange_has_slope(s, i);
+        if (!c->moves[i]) {
+            c->span[i] = 0.0;
+            c->slope[i] = s->ramp.slope[input];
+            continue;
+        }
+        const double slope = expected_slope(s, i, size, &c->span[i]);
+        c->slope[i] = isfinite(slope) ? slope : 0.0;
+        if (c->slope[i] != 0.0) {
+            ramp_set(&s->ramp, input, c->slope[i]);
+        }
     }
 }
 
@@ -137,9 +161,11 @@ static bool take_up(Instance *instance, double size, Message *why)
         go_on(s);
         return settle_variables(instance, why);
     }
-    if (c->moves && !c->is_set && *across(s) != c->now.across) { /* it was not the caller who moved it */
-        put(s, c->now.across);
-        integrator_discontinuity(&s->integrator);
+    for (int i = 0; i < N_ACROSS; i++) {
+        if (c->moves[i] && !c->is_set[i] && *across(s, i) != c->now.across[i]) { /* not the caller has moved it */
+            put(s, i, c->now.across[i]);
+            integrator_discontinuity(&s->integrator);
+        }
     }
     if (!settle_variables(instance, why)) {
         return false;
@@ -147,8 +173,10 @@ static bool take_up(Instance *instance, double size, Message *why)
     if (s->v.time > c->now.time) {
         exchange(instance, size);
     } else { /* the last step has come to an end at once */
-        c->now.across = *across(s);
-        c->change.across = c->stands ? c->change.across : c->now.across;
+        for (int i = 0; i < N_ACROSS; i++) {
+            c->now.across[i] = *across(s, i);
+            c->change.across[i] = c->stands ? c->change.across[i] : c->now.across[i];
+        }
     }
     return true;
 }
@@ -169,30 +197,16 @@ bool coupling_begin(Instance *instance, double size, Message *why)
     return settle_truths(instance, why);
 }
 
-/* The mean over one more exchange as long as the present one, with the inputs moving on: the state goes there and back.
- */
-static double predict(Instance *instance, double size)
+/* What to hold of each through over the next exchange: its mean, and what is owed, within its range. */
+static void choose_holds(Instance *instance, double size, const Exchange *next)
 {
-    static const StepOptions alone = {0};
-    State *s = &instance->state;
-    const double start = s->v.time;
-    const double impulse = s->v.at[coupling_info.impulse];
-    double mean = s->v.at[coupling_info.through];
-    const bool logs = instance->logs[LOG_EVENT];
-    Message why;
-    memcpy(&instance->present, s, sizeof *s);
-    instance->logs[LOG_EVENT] = false;
-    memcpy(s->holds, s->next_holds, sizeof s->holds);
-    s->event_waits = false;
-    s->ramp.over = false;
-    ramp_begin(&s->ramp, &s->v);
-    events_watch(&s->density, start, start + size);
-    if (advance_to(instance, start + size, &alone, &why) && s->v.time > start) {
-        mean = (s->v.at[coupling_info.impulse] - impulse) / (s->v.time - start);
+    Coupling *c = &instance->state.coupling;
+    double means[N_THROUGH];
+    coupling_predict(instance, size, next->owed[0] / next->period, means);
+    for (int i = 0; i < N_THROUGH; i++) {
+        const VariableInfo *range = &variable_info[coupling_info.through[i].hold];
+        c->hold[i] = fmin(range->max, fmax(range->min, means[i] + next->owed[i] / next->period));
     }
-    instance->logs[LOG_EVENT] = logs;
-    memcpy(s, &instance->present, sizeof *s);
-    return mean;
 }
 
 void coupling_end(Instance *instance, double start)
@@ -201,14 +215,18 @@ void coupling_end(Instance *instance, double start)
     Coupling *c = &s->coupling;
     if (s->v.time > start) { /* otherwise nothing has been transmitted: an event at the start has ended the step */
         const double size = s->v.time - c->now.time;
-        const double impulse = s->v.at[coupling_info.impulse];
-        c->mean = (impulse - c->now.impulse) / size;
-        c->across = *across(s);
-        c->through = s->v.at[coupling_info.through];
-        const Exchange next = coupling_exchange_after(s, &c->now, impulse);
-        c->hold = predict(instance, size) + next.owed / next.period;
+        const Impulses impulses = coupling_exchange_impulses(s);
+        for (int i = 0; i < N_ACROSS; i++) {
+            c->across[i] = *across(s, i);
+            c->is_set[i] = false;
+        }
+        for (int i = 0; i < N_THROUGH; i++) {
+            c->mean[i] = (impulses.of[i] - c->now.impulse[i]) / size;
+            c->through[i] = s->v.at[coupling_info.through[i].output];
+        }
+        const Exchange next = coupling_exchange_after(s, &c->now, &impulses);
+        choose_holds(instance, size, &next);
         c->stepped = true;
-        c->is_set = false;
     }
     coupling_values_show(s);
 }

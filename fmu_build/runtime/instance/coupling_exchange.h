@@ -11,8 +11,8 @@
 
 #if N_COUPLINGS > 0
 
-/* The slope of u in the next step is the caller's, not the unit's. */
-bool coupling_exchange_has_slope(const State *s);
+/* The slope of this u in the next step is the caller's, not the unit's. */
+bool coupling_exchange_has_slope(const State *s, int across);
 
 /* The step of `size` that begins is one more of the present exchange. */
 bool coupling_exchange_goes_on(const State *s, double size);
@@ -20,11 +20,21 @@ bool coupling_exchange_goes_on(const State *s, double size);
 /* Before a step of `size` that is not: find where the exchange that ends here has begun after all. */
 void coupling_exchange_review(State *s, double size);
 
-/* What follows where the instance is, after the impulse transmitted so far, on an exchange that began earlier. */
-Exchange coupling_exchange_after(const State *s, const Exchange *from, double impulse);
+/* The impulses transmitted so far. */
+typedef struct {
+    double of[N_THROUGH];
+} Impulses;
+Impulses coupling_exchange_impulses(const State *s);
 
-/* The next one begins, after the impulse transmitted so far, and with the work done so far. */
-void coupling_exchange_next(State *s, double impulse);
+/* What the master is taken to hold of one through over the exchange: over one that it makes with the mean, and that
+ * has not been made, what is predicted of it. */
+double coupling_exchange_held(const State *s, const Exchange *exchange, int through);
+
+/* What follows where the instance is, after these impulses, on an exchange that began earlier. */
+Exchange coupling_exchange_after(const State *s, const Exchange *from, const Impulses *impulses);
+
+/* The next one begins, after these impulses, and with the work done so far. */
+void coupling_exchange_next(State *s, const Impulses *impulses);
 
 #endif
 #endif

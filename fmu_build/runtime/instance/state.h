@@ -33,41 +33,46 @@ typedef enum { LOG_ERROR, LOG_WARNING, LOG_EVENT, LOG_STEP, N_LOG_CATEGORIES } L
 
 typedef void LogFunction(void *receiver, LogCategory category, Status status, const char *message);
 
+#if N_COUPLINGS > 0
+
 /* Where an exchange of a coupling begins, and its accounts until then. */
 typedef struct {
     double time;
-    double across;  /* u there, as the caller has it */
-    double through; /* what the master can apply from here on: the force there */
-    double hold;    /* or the one to hold */
-    double impulse;
+    double across[N_ACROSS];   /* u there, as the caller has it */
+    double through[N_THROUGH]; /* what the master can apply from here on: the force there */
+    double hold[N_THROUGH];    /* or the one to hold */
+    double impulse[N_THROUGH];
     double work;
-    double owed;   /* the impulse transmitted so far less the one applied */
-    double energy; /* that the coupling has made so far */
-    double period; /* the longest of the last exchanges */
+    double owed[N_THROUGH]; /* the impulse transmitted so far less the one applied */
+    double energy;          /* that the coupling has made so far */
+    double period;          /* the longest of the last exchanges */
 } Exchange;
 
 /* What a coupling remembers, see coupling.h. */
 typedef struct {
     bool stepped; /* there has been a step that led on in time */
-    bool moves;  /* the slope of u in the last one was the unit's own, so that its end is not what the caller has set */
-    bool is_set; /* u has been set since */
+    bool moves[N_ACROSS];  /* the slope of u in the last one was the unit's own, so that its end is not what is set */
+    bool is_set[N_ACROSS]; /* u has been set since */
     bool stands; /* the present exchange has begun with the value of the one before */
     bool parted; /* it has had more than one step */
     bool several;    /* and so had one of the last ones before it */
     Exchange now;    /* the present one */
     Exchange change; /* the last one that has begun with a new value */
-    double before;   /* u at the start of the exchange before the present one */
-    double interval; /* the length of that one; 0: there was none */
+    double before[N_ACROSS]; /* u at the start of the exchange before the present one */
+    double interval;         /* the length of that one; 0: there was none */
+    double applied;          /* the force that the master held over that one */
     double usual;    /* the longest of the last ones from change to change; 0: there was none */
     int doubts;      /* for so many more changes a value that stands is taken for one that is held */
-    double slope;    /* of u in the last step */
-    double span;     /* the time before the present one from which it was taken: 0: given, INFINITY: there was none */
+    double slope[N_ACROSS]; /* of u in the last step */
+    double span[N_ACROSS];  /* the time before it from which it was taken: 0: given, INFINITY: there was none */
     /* At the end of the last step: */
-    double across; /* u as the slope has it */
-    double through;
-    double mean;
-    double hold;
+    double across[N_ACROSS]; /* u as the slope has it */
+    double through[N_THROUGH];
+    double mean[N_THROUGH];
+    double hold[N_THROUGH];
 } Coupling;
+
+#endif
 
 /* An integrator step that leads beyond the communication point. As long as nothing is set, the next communication
  * points lie on its path. */

@@ -58,8 +58,8 @@ static const Field double_fields[] = {
 #if N_COUPLINGS > 0
     FIELD(coupling.now), /* these two are of doubles alone */
     FIELD(coupling.change), FIELD(coupling.before), FIELD(coupling.interval), FIELD(coupling.usual),
-    FIELD(coupling.slope),  FIELD(coupling.across), FIELD(coupling.through),  FIELD(coupling.mean),
-    FIELD(coupling.hold),
+    FIELD(coupling.applied), FIELD(coupling.slope), FIELD(coupling.across), FIELD(coupling.through),
+    FIELD(coupling.mean), FIELD(coupling.hold),
 #endif
 };
 
@@ -164,7 +164,10 @@ static bool check_coupling(const State *s, Message *why)
 {
 #if N_COUPLINGS > 0
     const Coupling *c = &s->coupling;
-    const bool lengths = c->span >= 0.0 && c->interval >= 0.0 && c->usual >= 0.0 && c->now.period >= 0.0;
+    bool lengths = c->interval >= 0.0 && c->usual >= 0.0 && c->now.period >= 0.0;
+    for (int i = 0; i < N_ACROSS; i++) {
+        lengths = lengths && c->span[i] >= 0.0;
+    }
     const bool order = !c->stepped || (c->change.time <= c->now.time && c->now.time <= s->v.time);
     return (lengths && order && c->doubts >= 0) || disbelieve("coupling", why);
 #else

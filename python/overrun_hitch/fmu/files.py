@@ -17,7 +17,8 @@ ROOT = Path(__file__).resolve().parents[3]
 LIBRARY = ROOT / "modelica" / "OverrunHitch"
 READY_MADE = Path(__file__).resolve().parents[1] / "fmus"  # put there by `make dist`
 OURS = (ROOT / "build" if LIBRARY.is_dir() else READY_MADE) / "fmi2"  # a file there has the name of its class
-CAR_TRAILER, CAR, TRAILER, BENCH = (OURS / f"{name}.fmu" for name in ("CarTrailer", "Car", "Trailer", "Bench"))
+NAMES = ("CarTrailer", "Car", "Trailer", "Hitch", "Bench")
+CAR_TRAILER, CAR, TRAILER, HITCH, BENCH = (OURS / f"{name}.fmu" for name in NAMES)
 GENERATOR = ROOT / "fmu_build"
 SOURCES = {".mo", ".order", ".py", ".c", ".h"}
 

@@ -76,7 +76,7 @@ def test_the_guid_changes_with_the_content(
     monkeypatch.setenv("CFLAGS", "-O0")
     library = tmp_path / "OverrunHitch"
     shutil.copytree(modelica_library, library)
-    drawbar = library / "Components" / "Drawbar.mo"
+    drawbar = library / "Interfaces" / "PartialDrawbar.mo"
     drawbar.write_text(drawbar.read_text().replace("F_free = F_damper", "F_free = 1.0001*F_damper"))
     tokens = set()
     for folder in (modelica_library, library):

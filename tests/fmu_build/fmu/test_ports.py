@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -15,7 +16,7 @@ from fmu_build.errors import BuildError
 from fmu_build.fmu.ports import declare
 from fmu_build.frontend.annotations import read_couplings, read_terminals
 from fmu_build.frontend.flatten import flatten
-from fmu_build.ir.models import Coupling, Member, Ports, Terminal
+from fmu_build.ir.models import Across, Coupling, Member, Ports, Terminal, Through
 from fmu_build.pipeline import build
 from tests.fmu_build.conftest import Writer
 
@@ -76,10 +77,17 @@ def ports(modelica_file: Writer) -> Callable[[str], Ports]:
 
 
 def test_what_is_read(ports: Callable[[str], Ports]) -> None:
-    expected = Coupling("u", "a", "ex", "F", "p", "W", "F_mean", "F_hold", "which", "E")
+    u, force = Across("u", "a", None, 1.0), Through("F", "p", "F_mean", "F_hold")
+    expected = Coupling((u,), (force,), "ex", "W", "which", "E")
     hitch = Terminal("hitch", (Member("v", "u", "signal"), Member("F", "F_hold", "outflow")))
     assert ports(text(coupling() + HITCH)) == Ports(expected, (hitch,))
     assert ports(text("")) == Ports()
+    inert = Coupling((replace(u, inertia="c", sign=-1.0),), (force,), "ex", "W", "which", "E")
+    assert ports(text(coupling(across="- u", inertia="c"))) == Ports(inert)
+    two = coupling(across="u, -u", acrossDerivative="a, a", through="F, F", impulse="p, p", mean="F_mean, F_hold",
+                   hold="F_hold, F_mean")  # fmt: skip
+    both = (force, Through("F", "p", "F_hold", "F_mean"))
+    assert ports(text(two)) == Ports(Coupling((u, replace(u, sign=-1.0)), both, "ex", "W", "which", "E"))
 
 
 def test_only_our_own_annotation_counts() -> None:
@@ -97,13 +105,13 @@ def test_the_table_in_c(modelica_file: Writer) -> None:
         files = print_c(model, differentiate(model), "M", declare(flat, model).coupling).files
         assert f"#define N_COUPLINGS {count}\n" in files["variables.h"]
         assert ("coupling_info" in files["model.c"]) == bool(count)
+    assert "N_ACROSS = 1,\n    N_THROUGH = 1" in files["variables.h"]
     table = files["model.c"].partition("coupling_info = {\n")[2].partition("\n};")[0].splitlines()
-    references = model.value_references
-    assert [line.split() for line in table][:2] == [
-        f".across = {references['u']}, /* u */".split(),
-        f".across_derivative = {references['a']}, /* a */".split(),
-    ]
-    assert len(table) == len(COUPLING)
+    u, a = (model.value_references[name] for name in "ua")
+    assert table[1].split() == f"{{.input = {u} /* u */, .derivative = {a} /* a */, .sign = 1.0}}}},".split()
+    assert [line.split()[0] for line in table if not line.startswith("        ")] == [
+        ".across", ".through", ".extrapolate", ".work", ".applied", ".energy",
+    ]  # fmt: skip
 
 
 REFUSED = {
@@ -114,6 +122,9 @@ REFUSED = {
     "not a parameter": (coupling(applied="a"), "applied = a: this is of kind input, needed is parameter"),
     "unknown key": (coupling(speed="u"), "speed is not one of across, acrossDerivative"),
     "missing key": (coupling(work=None), 'work="..." is missing'),
+    "one derivative for two": (coupling(across="u, -u"), "acrossDerivative names 1 variables, needed are 2"),
+    "two works": (coupling(work="W, W"), "work names 2 variables, needed are 1"),
+    "no inertia": (coupling(inertia="x"), "inertia = x: this is of kind state, needed is parameter"),
     "no string": (", coupling(across=u)", "across=u"),
     "two couplings": (coupling() + coupling(), "only one"),
     "terminal without a name": (', terminal(signal(v="u"))', 'needs a name="..."'),
@@ -134,6 +145,6 @@ def test_what_is_refused(case: str, modelica_file: Writer, tmp_path: Path) -> No
 
 
 def test_nothing_may_depend_on_what_is_replaced(ports: Callable[[str], Ports]) -> None:
-    with pytest.raises(BuildError, match=r"energy = E: twice depends on it \(M.mo:\d+\)"):
+    with pytest.raises(BuildError, match=r"twice depends on E \(M.mo:\d+\)"):
         ports(text(coupling(), more='output Real twice(unit="J") = 2*E;'))
     ports(text(coupling(), more='output Real twice(unit="N") = 2*F_mean;'))  # by another name of F itself: no harm

@@ -2,35 +2,40 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 
+from fmu_build.ir.models import Across, Coupling, Through
 from tests.fmu_build.runtime.hand_written import Model, Variable
+
+COUPLING = Coupling(
+    across=(Across("u", "a", None, 1.0),),
+    through=(Through("force", "impulse", "mean", "hold"),),
+    extrapolate="extrapolation",
+    work="work",
+    applied="applied",
+    energy="energy",
+)
 
 
 @dataclass(frozen=True)
 class CoupledModel(Model):
-    coupling: dict[str, str] = field(default_factory=dict)  # CouplingInfo: field to name
+    coupling: Coupling = COUPLING
 
     def header(self) -> str:
-        return super().header().replace("N_COUPLINGS 0", "N_COUPLINGS 1")
+        sizes = f"enum {{ N_ACROSS = {len(self.coupling.across)}, N_THROUGH = {len(self.coupling.through)} }};"
+        return super().header().replace("N_COUPLINGS 0", f"N_COUPLINGS 1\n{sizes}")
 
     def source(self) -> str:
-        rows = "".join(f" .{key} = {self.references()[name]}," for key, name in self.coupling.items())
-        return f"{super().source()}const CouplingInfo coupling_info = {{{rows}}};\n"
+        return f"{super().source()}const CouplingInfo coupling_info = {self.initializer(self.coupling)};\n"
 
-
-COUPLING = {
-    "across": "u",
-    "across_derivative": "a",
-    "extrapolate": "extrapolation",
-    "through": "force",
-    "impulse": "impulse",
-    "work": "work",
-    "mean": "mean",
-    "hold": "hold",
-    "applied": "applied",
-    "energy": "energy",
-}
+    def initializer(self, value: Coupling | Across | Through | tuple[Across | Through, ...] | str | float) -> str:
+        """References of names, within braces as records and lists are; fields in their order, 0 for None."""
+        if isinstance(value, str):
+            return str(self.references()[value])
+        if isinstance(value, float):
+            return repr(value)
+        parts = value if isinstance(value, tuple) else (getattr(value, f.name) for f in fields(value))
+        return f"{{{', '.join('0' if part is None else self.initializer(part) for part in parts)}}}"
 
 
 def _towed() -> CoupledModel:
@@ -73,7 +78,6 @@ def _towed() -> CoupledModel:
         outputs=f"v->force = v->mean = v->hold = {force}; v->energy = 0.0;",
         relations=(("x > 0", "v->x"),),
         tolerance=1e-11,
-        coupling=COUPLING,
     )
 
 

@@ -40,7 +40,7 @@ def other_damper_fmu(modelica_library: Path, tmp_path_factory: pytest.TempPathFa
     """Our FMU, but its damper's force is 1 % larger."""
     library = tmp_path_factory.mktemp("other") / modelica_library.name
     shutil.copytree(modelica_library, library)
-    drawbar = library / "Components" / "Drawbar.mo"
+    drawbar = library / "Interfaces" / "PartialDrawbar.mo"
     text = drawbar.read_text(encoding="utf-8")
     assert text.count("= F_damper +") == 1
     drawbar.write_text(text.replace("= F_damper +", "= 1.01*F_damper +"), encoding="utf-8")
