@@ -62,6 +62,11 @@ def pair_fmus() -> dict[int, dict[str, Path]]:
 
 
 @pytest.fixture(scope="session")
+def hitch_fmu() -> Path:
+    return kept_fmus("Systems.Hitch", fmi=2)["Hitch"]
+
+
+@pytest.fixture(scope="session")
 def sanitizers(tmp_path_factory: pytest.TempPathFactory) -> None:
     """Skips a test where the compiler has none."""
     source = tmp_path_factory.mktemp("sanitizers") / "empty.c"

@@ -1,4 +1,4 @@
-"""`hitch couple`: what coupling Car.fmu and Trailer.fmu does to the oscillation, scheme by scheme."""
+"""`hitch couple`: what coupling Car.fmu and Trailer.fmu, or Hitch.fmu alone, does to the oscillation."""
 
 from __future__ import annotations
 
@@ -31,6 +31,7 @@ def couple(
     H: Annotated[str, typer.Option("--H", help="Communication steps in s.")] = STEPS,
     car: Annotated[Path | None, typer.Option(help="Car FMU instead of our own.")] = None,
     trailer: Annotated[Path | None, typer.Option(help="Trailer FMU instead of our own.")] = None,
+    hitch: Annotated[Path | None, typer.Option(help="Hitch FMU instead of our own.")] = None,
     whole: Annotated[Path | None, typer.Option(help="Car and trailer in one piece instead of our own.")] = None,
     time_limit: TimeLimitOption = 60.0,
     output: Annotated[Path, typer.Option(help="Folder for the files written.")] = Path("build/couple"),
@@ -46,19 +47,22 @@ def couple(
     from overrun_hitch.coupling.pair import guest_pair
     from overrun_hitch.coupling.study import check_step, study_coupling
     from overrun_hitch.coupling.table import csv_columns, show
-    from overrun_hitch.fmu.files import CAR, CAR_TRAILER, TRAILER
+    from overrun_hitch.coupling.trio import guest_trio
+    from overrun_hitch.fmu.files import CAR, CAR_TRAILER, HITCH, TRAILER
     from overrun_hitch.fmu.guest_unit import guest_unit
     from overrun_hitch.show import files, terminal, traces
 
     for step in steps:
         check_step(step)
     one, first, second = (whole or our_fmu(CAR_TRAILER), car or our_fmu(CAR), trailer or our_fmu(TRAILER))
+    between = hitch or our_fmu(HITCH)
     with (
         terminal.patience("Coupling") as told,
         guest_unit(one, time_limit) as unit,
         guest_pair(first, second, time_limit) as pair,
+        guest_trio(first, between, time_limit) as trio,
     ):
-        study = study_coupling(pair, unit, changed, V, steps, told)
+        study = study_coupling(pair, trio, unit, changed, V, steps, told)
     hint(changed.changed({"V_0": V}))
     name = name_with(f"case {case}", base, changed)
     stem = output / file_stem(name)

@@ -1,3 +1,3 @@
-"""Car and trailer as two FMUs: the pair, what coupling costs, and its SSP package."""
+"""Car and trailer as several FMUs: the pair, the hitch between two bodies, what coupling costs, and its SSP package."""
 
-__all__ = ["figure", "pair", "study", "table"]
+__all__ = ["figure", "pair", "study", "table", "trio"]

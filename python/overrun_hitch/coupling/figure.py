@@ -24,6 +24,8 @@ LINES: dict[str, dict[str, Any]] = {
     "jacobi-hold": {"color": "#0b3c6f", "linestyle": "-", "marker": "D", "linewidth": 2.0},
     "trailer-first": {"color": "#777777", "linestyle": (0, (6, 1.5, 1, 1.5)), "marker": "v"},
     "trailer-mean": {"color": "#1b7f4d", "linestyle": (0, (5, 1.6)), "marker": "P"},
+    "alone": {"color": "#8c2d8c", "linestyle": "-", "marker": "<"},
+    "alone-hold": {"color": "#4b3f9e", "linestyle": (0, (4, 1.2)), "marker": "*", "linewidth": 2.0},
     "iterated": {"color": "#2a9fd6", "linestyle": (0, (2, 1.2)), "marker": "X"},
 }
 CLOSED_FORM: dict[str, Any] = {"color": "#000000", "linestyle": (0, (1, 2.5)), "linewidth": 1.0, "zorder": 1.5}

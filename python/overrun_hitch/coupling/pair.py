@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +44,7 @@ class Scheme:
     force: str  # the output of the trailer that the car gets
     extrapolation: float  # 1: the trailer extrapolates the car's speed inside a step; 0: it is held
     lateness: float  # steps by which force and speed are late in all: T / H of the closed form
+    alone: bool = False  # Hitch.fmu between two bodies (trio.py) instead of Trailer.fmu behind a car
 
 
 SCHEMES = (
@@ -54,6 +56,9 @@ SCHEMES = (
            "F_hitch_mean", 1.0, 0.0),
     Scheme("car-first", "Gauss-Seidel, car first, speed interpolated", "car first", "F_hitch", 0.0, 0.5),
     Scheme("iterated", "iterated with rollback, F_hitch_mean", "iterated", "F_hitch_mean", 0.0, 0.0),
+    Scheme("alone", "hitch alone: Jacobi, values held", "parallel", "F_hitch", 0.0, 1.0, alone=True),
+    Scheme("alone-hold", "hitch alone: Jacobi, speeds extrapolated, force and torque to hold", "parallel",
+           "F_hitch_hold", 1.0, 0.0, alone=True),
 )  # fmt: skip
 
 
@@ -163,8 +168,21 @@ ADVANCES: Mapping[str, Callable[[Pair, Scheme, float, float, float], tuple[float
 }
 
 
-class GuestPair:
-    """A Pair in a process of its own, where its runs are made."""
+class Units(Protocol):
+    """What makes a coupled run: Pair, trio.Trio, or either of them in a process of its own."""
+
+    def run(
+        self, scheme: Scheme, parameters: Parameters, brake_torque: float, duration: float, H: float, tolerance: float
+    ) -> Coupled:
+        """See Pair.run."""
+
+
+def _run(units: Units, *arguments: Any) -> Coupled:
+    return units.run(*arguments)
+
+
+class GuestUnits:
+    """Units in a process of their own, where their runs are made."""
 
     def __init__(self, guest: Guest) -> None:
         self._guest = guest
@@ -174,21 +192,21 @@ class GuestPair:
     ) -> Coupled:
         """As Pair.run; HitchError where that takes too long or crashes."""
         try:
-            coupled: Coupled = self._guest.call(Pair.run, scheme, parameters, brake_torque, duration, H, tolerance)
+            coupled: Coupled = self._guest.call(_run, scheme, parameters, brake_torque, duration, H, tolerance)
         except GuestLost as error:
             raise HitchError(f"{error}; the run was {scheme.name!r} with H = {H:g} s") from None
         return coupled
 
 
 @contextmanager
-def guest_pair(car: Path, trailer: Path, time_limit: float = TIME_LIMIT) -> Iterator[GuestPair]:
+def guest_pair(car: Path, trailer: Path, time_limit: float = TIME_LIMIT) -> Iterator[GuestUnits]:
     """Both FMU files open in one process, as masters have them: each of their thousands of calls is answered at once.
 
     `time_limit` in s, for each run.
     """
     limit = checked_time_limit(time_limit)
     with Guest(f"{car} with {trailer}", limit, opened_pair, car, trailer) as guest:
-        yield GuestPair(guest)
+        yield GuestUnits(guest)
 
 
 @contextmanager

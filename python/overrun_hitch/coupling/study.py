@@ -12,13 +12,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from overrun_hitch.coupling.pair import SCHEMES, Coupled, GuestPair, Pair, Scheme
+from overrun_hitch.coupling.pair import SCHEMES, Coupled, Scheme, Units
 from overrun_hitch.experiments.free_vibration import DECELERATION, SHARE, MeasuredMode, measured_mode
 from overrun_hitch.fmu.messages import StepRefused
 from overrun_hitch.fmu.unit import AnyUnit
 from overrun_hitch.measure.oscillation import NoOscillation, measure
 from overrun_hitch.parameters import HitchError, Parameters
-from overrun_hitch.theory.steady import steady
+from overrun_hitch.theory.steady import inertias, steady
 
 DURATION = 6.0  # s
 ONSET = 0.1  # s: the wheels have taken up the brake torque
@@ -36,7 +36,7 @@ class Point:
     growth_rate: float  # 1/s; NaN where nothing could be measured
     frequency: float  # Hz
     created: float  # J, what the coupling has fed in at the end of the run, by the pair's own works
-    told: float  # J, the same as the trailer tells it in coupling_energy; it is one step behind
+    told: float  # J, the same as the unit tells it in coupling_energy; it is one step behind
     expected: float  # 1/s, rise of the growth rate by the closed form for light damping
 
 
@@ -55,7 +55,8 @@ class CouplingStudy:
 
 
 def study_coupling(
-    pair: Pair | GuestPair,
+    pair: Units,
+    trio: Units,
     whole: AnyUnit,
     parameters: Parameters,
     V: float,
@@ -63,12 +64,15 @@ def study_coupling(
     progress: Callable[[str], object] = lambda _: None,
     schemes: Sequence[Scheme] = SCHEMES,
 ) -> CouplingStudy:
-    """Run every scheme at every step H (s). HitchError where there is nothing to measure: see measured_mode."""
+    """Run every scheme at every step H (s): `pair` those of Trailer.fmu, `trio` those of Hitch.fmu.
+
+    HitchError where there is nothing to measure: see measured_mode.
+    """
     mode = measured_mode(whole, parameters, V)
     points = []
     for H in steps:
         progress(f"steps of {1000.0 * H:g} ms")
-        points += [_point(pair, scheme, parameters, V, H) for scheme in schemes]
+        points += [_point(trio if scheme.alone else pair, scheme, parameters, V, H) for scheme in schemes]
     return CouplingStudy(parameters, V, mode, tuple(points))
 
 
@@ -92,8 +96,11 @@ def longest_stable_step(scheme: Scheme, parameters: Parameters, growth_rate: flo
 
 
 def rise_per_second(scheme: Scheme, parameters: Parameters) -> float:
-    """The rise of the growth rate (1/s) for each second of H: see coupling.py."""
-    return scheme.lateness * parameters.k / (2.0 * (parameters.M_c + parameters.I_c / parameters.R_c**2))
+    """The rise of the growth rate (1/s) for each second of H: see pair.py and trio.py."""
+    p = parameters
+    front, rear = inertias(p)
+    late = p.k / front + (p.k + p.r / p.R_t) / rear if scheme.alone else p.k / front
+    return scheme.lateness * late / 2.0
 
 
 def gentle_braking(parameters: Parameters, V: float) -> tuple[Parameters, float]:
@@ -104,12 +111,12 @@ def gentle_braking(parameters: Parameters, V: float) -> tuple[Parameters, float]
     return parameters.changed({"V_0": V - 0.5 * DURATION * braking.A, "compression_start": compression}), torque
 
 
-def _point(pair: Pair | GuestPair, scheme: Scheme, parameters: Parameters, V: float, H: float) -> Point:
+def _point(units: Units, scheme: Scheme, parameters: Parameters, V: float, H: float) -> Point:
     check_step(H)
     start, torque = gentle_braking(parameters, V)
     expected = rise_per_second(scheme, parameters) * H
     try:
-        run = pair.run(scheme, start, torque, DURATION, H, RELATIVE_TOLERANCE)
+        run = units.run(scheme, start, torque, DURATION, H, RELATIVE_TOLERANCE)
     except StepRefused:  # the coupling has let the motion grow until the model ends, or does not converge
         return Point(scheme, H, math.nan, math.nan, math.nan, math.nan, expected)
     growth, frequency = _oscillation(run)

@@ -20,6 +20,7 @@ from overrun_hitch.coupling.pair import (
     opened_pair,
 )
 from overrun_hitch.coupling.study import CouplingStudy, gentle_braking, longest_stable_step, study_coupling
+from overrun_hitch.coupling.trio import HITCH_PARAMETERS, Trio, opened_trio
 from overrun_hitch.experiments.step_brake import brake
 from overrun_hitch.fmu.description import described
 from overrun_hitch.fmu.opening import opened_unit
@@ -40,22 +41,33 @@ def pair(pair_fmus: dict[int, dict[str, Path]]) -> Iterator[Pair]:
 
 
 @pytest.fixture(scope="module")
+def trio(pair_fmus: dict[int, dict[str, Path]], hitch_fmu: Path) -> Iterator[Trio]:
+    with opened_trio(pair_fmus[2]["Car"], hitch_fmu) as trio:
+        yield trio
+
+
+@pytest.fixture(scope="module")
 def whole(car_trailer_fmu: Path) -> Iterator[HitchUnit]:
     with opened_unit(car_trailer_fmu) as unit:
         yield unit
 
 
 @pytest.fixture(scope="module")
-def studies(pair: Pair, whole: HitchUnit) -> dict[float, CouplingStudy]:
+def studies(pair: Pair, trio: Trio, whole: HitchUnit) -> dict[float, CouplingStudy]:
     """By C, over three steps."""
     steps = (0.005, 0.01, 0.02)
-    return {C: study_coupling(pair, whole, CASES["ii"].changed({"C": C}), V, steps) for C in (100.0, 500.0)}
+    cases = {C: CASES["ii"].changed({"C": C}) for C in (100.0, 500.0)}
+    return {C: study_coupling(pair, trio, whole, case, V, steps) for C, case in cases.items()}
 
 
-def test_each_unit_has_the_parameters_that_are_declared_to_be_its(pair_fmus: dict[int, dict[str, Path]]) -> None:
-    for unit, declared in (("Car", CAR_PARAMETERS), ("Trailer", TRAILER_PARAMETERS)):
-        there = described(pair_fmus[2][unit]).parameters.keys() - {"extrapolation", "applied_force"}
-        assert there == set(declared), unit
+def test_each_unit_has_the_parameters_that_are_declared_to_be_its(
+    pair_fmus: dict[int, dict[str, Path]], hitch_fmu: Path
+) -> None:
+    own = {"extrapolation", "applied_force", "M_front", "M_rear", "T_gap"}
+    fmus = {**pair_fmus[2], "Hitch": hitch_fmu}
+    declared = {"Car": CAR_PARAMETERS, "Trailer": TRAILER_PARAMETERS, "Hitch": HITCH_PARAMETERS}
+    for unit, names in declared.items():
+        assert described(fmus[unit]).parameters.keys() - own == set(names), unit
 
 
 def errors(study: CouplingStudy, name: str) -> list[float]:
@@ -92,24 +104,24 @@ def test_what_is_not_late_errs_by_a_twentieth_of_that(studies: dict[float, Coupl
             assert abs(error) < 0.05 * late
 
 
-def test_a_coarse_step_makes_a_stable_combination_shunt(pair: Pair, whole: HitchUnit) -> None:
+def test_a_coarse_step_makes_a_stable_combination_shunt(pair: Pair, trio: Trio, whole: HitchUnit) -> None:
     """Plain Jacobi at twice the step of the closed form; the force to hold does not at the same step."""
     p = CASES["ii"].changed({"C": 200.0})
     step = longest_stable_step(BY_NAME["jacobi"], p, float(shunting_mode(p, V).growth_rate))
     assert 0.03 < step < 0.06
     schemes = [BY_NAME["jacobi"], BY_NAME["jacobi-hold"]]
-    jacobi, hold = study_coupling(pair, whole, p, V, [0.05], schemes=schemes).points
+    jacobi, hold = study_coupling(pair, trio, whole, p, V, [0.05], schemes=schemes).points
     assert float(shunting_mode(p, V).growth_rate) < -0.1
     assert jacobi.growth_rate > 0.0 > hold.growth_rate
 
 
 def test_a_scheme_that_fails_does_not_stop_the_others(
-    pair: Pair, whole: HitchUnit, monkeypatch: pytest.MonkeyPatch
+    pair: Pair, trio: Trio, whole: HitchUnit, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Repeating steps comes to no end where it is allowed two iterations."""
     monkeypatch.setattr("overrun_hitch.coupling.pair.ITERATIONS", 2)
     schemes = [BY_NAME[name] for name in ("iterated", "trailer-mean")]
-    failed, other = study_coupling(pair, whole, CASES["ii"], V, [0.1], schemes=schemes).points
+    failed, other = study_coupling(pair, trio, whole, CASES["ii"], V, [0.1], schemes=schemes).points
     assert np.isnan(failed.created) and np.isfinite(other.created)
 
 
@@ -133,7 +145,7 @@ def test_the_force_to_hold_owes_at_most_a_step(pair: Pair) -> None:
     assert owed.max() < a_step and owed[-1] < 1e-3 * a_step
 
 
-@pytest.mark.parametrize("name", [name for name in BY_NAME if name != "trailer-first"])
+@pytest.mark.parametrize("name", [name for name in BY_NAME if not name.startswith(("trailer-first", "alone"))])
 def test_the_unit_tells_the_energy_that_is_created(pair: Pair, name: str) -> None:
     """One step late, from the speeds at the communication points alone: the car's true place is not known to it.
 
@@ -203,23 +215,24 @@ def test_other_fmus_are_refused(pair_fmus: dict[int, dict[str, Path]], car_trail
         pass
 
 
-def command(pair_fmus: dict[int, dict[str, Path]], whole: Path, output: Path, *more: str) -> list[str]:
-    fmus = ["--car", str(pair_fmus[2]["Car"]), "--trailer", str(pair_fmus[2]["Trailer"]), "--whole", str(whole)]
-    return ["couple", *fmus, "--output", str(output), *more]
+@pytest.fixture
+def command(pair_fmus: dict[int, dict[str, Path]], hitch_fmu: Path, car_trailer_fmu: Path, tmp_path: Path) -> list[str]:
+    """`hitch couple` with the FMUs under test."""
+    files = {"car": pair_fmus[2]["Car"], "trailer": pair_fmus[2]["Trailer"], "hitch": hitch_fmu}
+    options = [("--whole", str(car_trailer_fmu)), ("--output", str(tmp_path / "out"))]
+    options += [(f"--{name}", str(file)) for name, file in files.items()]
+    return ["couple", *(word for option in options for word in option)]
 
 
-def test_the_command(
-    pair_fmus: dict[int, dict[str, Path]], car_trailer_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    arguments = command(pair_fmus, car_trailer_fmu, tmp_path, "--H", "0.01,0.02", "--set", "C=300")
-    assert cli.main(arguments) == 0
+def test_the_command(command: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main([*command, "--H", "0.01,0.02", "--set", "C=300"]) == 0
     out = capsys.readouterr().out
     for scheme in SCHEMES:
         assert f"{scheme.name}: {scheme.what}" in " ".join(out.split())
-    assert sorted(path.name for path in tmp_path.iterdir()) == [
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
         f"case-ii-C=300.{kind}" for kind in ("csv", "png", "svg")
     ]
-    with (tmp_path / "case-ii-C=300.csv").open(encoding="utf-8") as file:
+    with (tmp_path / "out" / "case-ii-C=300.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 2 * len(SCHEMES)
     assert {float(row["H [s]"]) for row in rows} == {0.01, 0.02}
@@ -237,14 +250,9 @@ def test_the_command(
     ],
 )
 def test_bad_input(
-    pair_fmus: dict[int, dict[str, Path]],
-    car_trailer_fmu: Path,
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
-    more: tuple[str, str],
-    message: str,
+    command: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str], more: tuple[str, str], message: str
 ) -> None:
-    assert cli.main(command(pair_fmus, car_trailer_fmu, tmp_path / "out", *more)) == 2
+    assert cli.main([*command, *more]) == 2
     captured = capsys.readouterr()
     assert captured.out == "" and message in captured.err and captured.err.count("\n") == 1
     assert not (tmp_path / "out").exists()
