@@ -6,8 +6,8 @@ status is 1.
 
 from __future__ import annotations
 
-import shutil
 import sys
+import tempfile
 
 import exudyn as exu
 import numpy as np
@@ -73,8 +73,9 @@ class Hitch:
         description = read_model_description(fmu)
         identifier = description.coSimulation.modelIdentifier
         self.references = {variable.name: variable.valueReference for variable in description.modelVariables}
-        self.folder = extract(fmu)
-        self.slave = FMU2Slave(guid=description.guid, unzipDirectory=self.folder, modelIdentifier=identifier)
+        self.folder = tempfile.TemporaryDirectory()
+        extract(fmu, self.folder.name)
+        self.slave = FMU2Slave(guid=description.guid, unzipDirectory=self.folder.name, modelIdentifier=identifier)
         self.slave.instantiate()
         self.set(**start)
         self.slave.setupExperiment(startTime=0.0)
@@ -93,7 +94,7 @@ class Hitch:
         """End it, and delete what was unpacked."""
         self.slave.terminate()
         self.slave.freeInstance()
-        shutil.rmtree(self.folder)
+        self.folder.cleanup()
 
 
 def brake(fmu: str, step: float) -> np.ndarray:

@@ -10,8 +10,8 @@ Figure and film are in build/mujoco. Without a screen MUJOCO_GL=egl or osmesa ma
 
 from __future__ import annotations
 
-import shutil
 import sys
+import tempfile
 from pathlib import Path
 
 import matplotlib as mpl
@@ -42,8 +42,9 @@ class Hitch:
         description = read_model_description(fmu)
         identifier = description.coSimulation.modelIdentifier
         self.references = {variable.name: variable.valueReference for variable in description.modelVariables}
-        self.folder = extract(fmu)
-        self.slave = FMU2Slave(guid=description.guid, unzipDirectory=self.folder, modelIdentifier=identifier)
+        self.folder = tempfile.TemporaryDirectory()
+        extract(fmu, self.folder.name)
+        self.slave = FMU2Slave(guid=description.guid, unzipDirectory=self.folder.name, modelIdentifier=identifier)
         self.slave.instantiate()
         self.set(**start)
         self.slave.setupExperiment(startTime=0.0)
@@ -62,7 +63,7 @@ class Hitch:
         """End it, and delete what was unpacked."""
         self.slave.terminate()
         self.slave.freeInstance()
-        shutil.rmtree(self.folder)
+        self.folder.cleanup()
 
 
 def brake(model: mujoco.MjModel, fmu: str, tyres: str, step: float) -> tuple[Traces, np.ndarray]:

@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 
 from tests.conftest import ROOT
-from tests.kept import kept_fmus
 
 SIMULATORS = {"mujoco_hitch": "mujoco", "exudyn_hitch": "exudyn"}  # example: module
+Units = tuple[Path, Path]
 AT_5_MS = {"STEPS = (0.001, 0.005)": "STEPS = (0.005,)"}
 LATE = {"F_hitch_hold": "F_hitch", "trailer_brake_torque_hold": "trailer_brake_torque"}
 IMPLICIT = {
@@ -25,8 +25,13 @@ IMPLICIT = {
 }
 
 
+@pytest.fixture(scope="module")
+def units(hitch_fmu: Path, car_trailer_fmu: Path) -> Units:
+    return hitch_fmu, car_trailer_fmu
+
+
 def run(
-    example: str, folder: Path, car_trailer_fmu: Path, changes: dict[str, str] | None = None
+    example: str, folder: Path, units: Units, changes: dict[str, str] | None = None
 ) -> subprocess.CompletedProcess[str]:
     """A copy of the example, with some of its text changed, on the units; skipped where the simulator is missing."""
     if importlib.util.find_spec(SIMULATORS[example]) is None:
@@ -39,7 +44,7 @@ def run(
         assert text.count(old) == 1, old
         text = text.replace(old, new)
     script.write_text(text, encoding="utf-8")
-    command = [sys.executable, script, kept_fmus("Systems.Hitch", fmi=2)["Hitch"], car_trailer_fmu]
+    command = [sys.executable, script, *units]
     without_film = {**os.environ, "MUJOCO_GL": "off"}  # it takes longer than the rest
     done = subprocess.run(command, cwd=folder, env=without_film, capture_output=True, text=True, timeout=120)
     print(done.stdout)
@@ -47,8 +52,8 @@ def run(
 
 
 @pytest.mark.parametrize("example", SIMULATORS)
-def test_it_is_as_near_as_it_says(example: str, tmp_path: Path, car_trailer_fmu: Path) -> None:
-    done = run(example, tmp_path, car_trailer_fmu)
+def test_it_is_as_near_as_it_says(example: str, tmp_path: Path, units: Units) -> None:
+    done = run(example, tmp_path, units)
     assert done.returncode == 0, done.stderr + done.stdout
     compression, frequency = map(float, re.findall(r"(\d+\.\d+)%", done.stdout))
     assert 0.0 < compression < 0.5 and 0.0 < frequency < 0.1
@@ -58,12 +63,12 @@ def test_it_is_as_near_as_it_says(example: str, tmp_path: Path, car_trailer_fmu:
 
 @pytest.mark.full
 @pytest.mark.parametrize("example", SIMULATORS)
-def test_values_that_are_not_to_be_held_are_too_late(example: str, tmp_path: Path, car_trailer_fmu: Path) -> None:
-    done = run(example, tmp_path, car_trailer_fmu, {**AT_5_MS, **LATE})
+def test_values_that_are_not_to_be_held_are_too_late(example: str, tmp_path: Path, units: Units) -> None:
+    done = run(example, tmp_path, units, {**AT_5_MS, **LATE})
     assert done.returncode == 1 and "apart: " in done.stdout, done.stderr
 
 
 @pytest.mark.full
-def test_implicit_integration_is_too_late(tmp_path: Path, car_trailer_fmu: Path) -> None:
-    done = run("exudyn_hitch", tmp_path, car_trailer_fmu, {**AT_5_MS, **IMPLICIT})
+def test_implicit_integration_is_too_late(tmp_path: Path, units: Units) -> None:
+    done = run("exudyn_hitch", tmp_path, units, {**AT_5_MS, **IMPLICIT})
     assert done.returncode == 1 and "apart: " in done.stdout, done.stderr
