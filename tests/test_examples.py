@@ -16,6 +16,7 @@ from overrun_hitch.coupling.ssp import write_ssp
 from tests.conftest import ROOT
 from tests.test_container import toolbox_runs_here
 from tests.test_container_pair import FORCES
+from tests.test_simulators import SIMULATORS
 from tests.unit import Unit
 
 STEPS, H = 600, 0.01  # s; as the examples have it
@@ -47,7 +48,7 @@ def ends(pair_fmus: dict[int, dict[str, Path]], tmp_path_factory: pytest.TempPat
 
 
 def test_none_is_left_out() -> None:
-    assert {path.stem for path in (ROOT / "examples").glob("*.py")} == set(PACKAGES)
+    assert {path.stem for path in (ROOT / "examples").glob("*.py")} == {*PACKAGES, *SIMULATORS}
 
 
 @pytest.mark.parametrize(
