@@ -16,7 +16,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from overrun_hitch.api import compare, fmu_path, plot, run, run_many, stability, sweep
+    from overrun_hitch.api import compare, crosscheck, fmu_path, plot, run, run_many, stability, sweep
     from overrun_hitch.fitting.fit import fit
     from overrun_hitch.fitting.trace import Trace
     from overrun_hitch.parameters import CASES, FIGURES, HitchError, Parameters
@@ -26,13 +26,13 @@ if TYPE_CHECKING:
 # Where each name is at home: loaded only when it is asked for, because the independent check needs numpy alone, and
 # nobody should wait for what is not used.
 _HOMES = {
-    **dict.fromkeys(("compare", "fmu_path", "plot", "run", "run_many", "stability", "sweep"), "api"),
+    **dict.fromkeys(("compare", "crosscheck", "fmu_path", "plot", "run", "run_many", "stability", "sweep"), "api"),
     **dict.fromkeys(("CASES", "FIGURES", "HitchError", "Parameters"), "parameters"),
     "fit": "fitting.fit",
     "Trace": "fitting.trace",
 }
-__all__ = ["CASES", "FIGURES", "HitchError", "Parameters", "Trace", "__version__", "compare", "fit", "fmu_path", "plot",
-           "run", "run_many", "stability", "sweep"]  # fmt: skip
+__all__ = ["CASES", "FIGURES", "HitchError", "Parameters", "Trace", "__version__", "compare", "crosscheck", "fit",
+           "fmu_path", "plot", "run", "run_many", "stability", "sweep"]  # fmt: skip
 
 
 def __getattr__(name: str) -> Any:

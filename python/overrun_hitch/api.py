@@ -6,12 +6,13 @@ HitchError, whose message names the thing and says what is allowed.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from overrun_hitch.extras import what_is_missing_told
-from overrun_hitch.parameters import HitchError, Parameters, Scenario, named
+from overrun_hitch.parameters import FIGURES, HitchError, Parameters, Scenario, named
 from overrun_hitch.scenarios import asked_scenario, name_with
 
 if TYPE_CHECKING:
@@ -22,7 +23,10 @@ if TYPE_CHECKING:
     from overrun_hitch.sweeps.job import Progress
     from overrun_hitch.sweeps.spec import SweepSpec
 
+    from overrun_hitch.experiments.torque import Torque
+
     Numbers = Sequence[float]
+    Profile = Mapping[str, Numbers] | str | Path
 
 TIME_LIMIT = 60.0  # s
 
@@ -49,6 +53,8 @@ def run(
     *,
     fmu: str | Path | None = None,
     brake_torque: float | None = None,
+    profile: Profile | None = None,
+    grade: float = 0.0,
     duration: float | None = None,
     relative_tolerance: float = 1e-6,
     communication_step: float = 0.01,
@@ -57,7 +63,9 @@ def run(
 ) -> xr.Dataset:
     """A step brake of the paper's figure ("8" unless said otherwise) or of figure 8 with a case's parameters.
 
-    `parameters` change single ones: C=200. brake_torque in N.m on the car's wheels (1000), duration in s (6),
+    `parameters` change single ones: C=200. brake_torque in N.m on the car's wheels (1000), duration in s (6). profile:
+    the brake torque over time instead, {"time": [...], "brake_torque": [...]} or a file with these columns, straight lines
+    between knots, two knots at one time for a jump. grade: rise of the road over its run, positive uphill.
     communication_step in s, from output point to output point. fmu: a file of somebody else's; it runs, like ours, in a
     process of its own for at most time_limit (s).
 
@@ -66,6 +74,9 @@ def run(
     >>> result = run("8", C=200)
     >>> round(float(result["compression"].max()), 4), result["compression"].attrs["units"]
     (0.0512, 'm')
+    >>> ramp = run(profile={"time": [0, 0.5, 2, 2], "brake_torque": [0, 1500, 1500, 0]}, grade=-0.05)
+    >>> round(float(ramp["a_car"].min()), 2)
+    -4.1
     """
     from overrun_hitch.experiments.step_brake import step_brake
 
@@ -76,7 +87,24 @@ def run(
         relative_tolerance=relative_tolerance,
         communication_step=communication_step,
         time_limit=time_limit,
+        torque=_torque(profile),
+        grade=grade,
     )
+
+
+def _torque(profile: Profile | None) -> Torque | None:
+    import numpy as np
+
+    from overrun_hitch.comparison.sources import read_profile
+    from overrun_hitch.experiments.torque import Torque
+
+    if profile is None or isinstance(profile, str | Path):
+        return None if profile is None else read_profile(Path(profile))
+    missing = [name for name in ("time", "brake_torque") if name not in profile]
+    if missing:
+        raise HitchError(f"the profile has no {missing[0]}; needed: time (s) and brake_torque (N.m)")
+    time, torque = (np.asarray(profile[name], dtype=np.float64) for name in ("time", "brake_torque"))
+    return Torque(time, torque)
 
 
 def run_many(
@@ -156,18 +184,64 @@ def compare(result: xr.Dataset, *, fmu: str | Path | None = None, time_limit: fl
     from overrun_hitch.experiments.step_brake import car_alone, step_brake
     from overrun_hitch.results import scenario_of
 
+    profile = result.attrs["profile"]
     alone = step_brake(
         car_alone(scenario_of(result)),
         fmu=fmu_path() if fmu is None else Path(fmu),
         relative_tolerance=float(result.attrs["relative_tolerance"]),
         communication_step=float(result.attrs["communication_step"]),
         time_limit=time_limit,
+        torque=_torque(dict(zip(("time", "brake_torque"), json.loads(profile), strict=True)) if profile else None),
+        grade=float(result.attrs["grade"]),
     )
     columns = ("unit", "expected", "found", "difference", "allowed", "verdict", "not_judged")
     rows = judged(result, alone)
     index = pd.Index([row.quantity for row in rows], name="quantity")
     table: pd.DataFrame = pd.DataFrame([[getattr(row, name) for name in columns] for row in rows], index, columns)
     return table
+
+
+def crosscheck(
+    files: Sequence[str | Path],
+    figures: Sequence[str] = tuple(FIGURES),
+    *,
+    maps: Mapping[str, str | Path] | None = None,
+    measured: bool = False,
+    profile: Profile | None = None,
+    duration: float | None = None,
+    brake_torque: float | None = None,
+    funnel: float = 1e-3,
+    funnel_time: float = 1e-4,
+    time_limit: float = TIME_LIMIT,
+    **parameters: float,
+) -> dict[str, Any]:
+    """FMUs and traces of the paper's step brakes against the first of them, also "ours" (an FMU) or "theory".
+
+    maps: a file of `files` to the TOML file with its names, signs and units. measured: traces have noise and a clock of
+    their own. funnel: allowed distance, relative to a variable's range in the first; funnel_time: allowed shift in s.
+    What else is as for `run`. Returns what `hitch crosscheck --json` prints (docs/crosscheck.md): "agrees", and under
+    "figures" the "comparisons" of all but the first, with every number, tolerance and reason.
+
+    >>> crosscheck(["ours", fmu_path(fmi=3)], ["8"])["agrees"]
+    True
+    """
+    from overrun_hitch.comparison import record
+    from overrun_hitch.comparison.crosscheck import crosscheck as checked
+    from overrun_hitch.comparison.distances import Allowed
+    from overrun_hitch.comparison.sources import OURS, Asked, Manoeuvre, opened_sources
+    from overrun_hitch.fmu.settings import Settings
+    from overrun_hitch.foreign.mapping import NO_NAMES, read_mapping
+
+    names = {name: read_mapping(Path(file)) for name, file in (maps or {}).items()}
+    asked = [
+        Asked(fmu_path() if Path(file) == OURS else Path(file), names.get(str(file), NO_NAMES), None) for file in files
+    ]
+    scenarios = [asked_scenario(n, None, parameters, duration=duration, brake_torque=brake_torque) for n in figures]
+    manoeuvres = [Manoeuvre(scenario, Settings(), _torque(profile)) for scenario in scenarios]
+    allowed = Allowed(funnel=funnel, funnel_time=funnel_time)
+    with opened_sources(asked, time_limit) as sources:
+        checks = [checked(one, sources, allowed, measured) for one in manoeuvres]
+        return record.document(checks, record.compared(sources), manoeuvres, allowed, ())
 
 
 def stability(

@@ -84,6 +84,11 @@ def test_where_our_fmus_are(name: str, fmi: int) -> None:
         (lambda: hitch.run("8", "ii"), "figure and case exclude each other"),
         (lambda: hitch.run("8", C=-1), "C = -1 N.s/m is not allowed"),
         (lambda: hitch.run(fmu="nowhere.fmu"), "nowhere.fmu"),
+        (lambda: hitch.run(grade=2), "grade = 2 is not allowed: rise of the road over its run must be"),
+        (lambda: hitch.run(profile={"time": [0, 1]}), "the profile has no brake_torque"),
+        (lambda: hitch.run(profile={"time": [1, 0], "brake_torque": [0, 0]}), "time must not decrease"),
+        (lambda: hitch.run(profile="nowhere.csv"), "nowhere.csv"),
+        (lambda: hitch.crosscheck(["ours"]), "two files at least"),
         (lambda: hitch.run_many({"Cc": [1]}), "no parameter or input 'Cc'"),
         (lambda: hitch.run_many({"C": []}), "C"),
         (lambda: hitch.run_many({"C": [1]}, outputs=["speed"]), "no variable 'speed'"),
@@ -123,6 +128,18 @@ def test_many_runs_are_those_of_fmpy_bit_by_bit() -> None:
             for name in ("compression", "F_hitch"):
                 assert many[name].sel(C=damper, eps=clearance).values.tolist() == result[name].tolist()
     unit.freeInstance()
+
+
+def test_a_profile_and_a_grade() -> None:
+    """A profile of one knot is the step; downhill by its own weight alone a combination gains g sin(arctan(grade))."""
+    step, same = hitch.run(), hitch.run(profile={"time": [0], "brake_torque": [1000]})
+    assert all(step[name].values.tolist() == same[name].values.tolist() for name in step.data_vars)
+    rolling = hitch.run(brake_torque=0, grade=-0.1, duration=1)
+    wheels = 1 + 5 / 0.35**2 / 1000  # of both vehicles, over the mass
+    assert float(rolling["a_car"][-1]) == pytest.approx(9.80665 * np.sin(np.arctan(0.1)) / wheels, rel=1e-3)
+    table = hitch.compare(rolling)
+    assert set(table["verdict"]) == {"not judged"}
+    assert set(table["not_judged"]) == {"grade = -0.1: the road is not level"}
 
 
 @pytest.mark.parametrize("workers", [1, 2])

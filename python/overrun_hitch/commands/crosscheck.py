@@ -12,6 +12,7 @@ import typer
 
 from overrun_hitch.commands.options import (
     ParametersOption,
+    ProfileOption,
     SetOption,
     TimeLimitOption,
     asked_changes,
@@ -44,9 +45,7 @@ def crosscheck(
     parameters: ParametersOption = None,
     duration: Annotated[float | None, typer.Option(help="Length of the run in s (6).")] = None,
     brake_torque: Annotated[float | None, typer.Option(help="Brake torque on the car's wheels in N.m (1000).")] = None,
-    profile: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Brake torque over time instead: time, brake_torque.")
-    ] = None,
+    profile: ProfileOption = None,
     measured: Annotated[
         bool, typer.Option("--measured", help="Traces have noise, and a clock of their own: align, allow for it.")
     ] = False,

@@ -22,6 +22,10 @@ ParametersOption = Annotated[
     Path | None,
     typer.Option("--parameters", metavar="FILE.toml", help="Change the parameters in this file (SI); --set wins."),
 ]
+ProfileOption = Annotated[
+    Path | None,
+    typer.Option("--profile", metavar="FILE", help="Brake torque over time instead: columns time, brake_torque."),
+]
 TimeLimitOption = Annotated[float, typer.Option("--time-limit", help="Time in s that a run of an FMU may take.")]
 MapOption = Annotated[
     Path | None, typer.Option("--map", metavar="FILE.toml", help="Names, signs and units in the FMU of --fmu.")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -12,6 +12,7 @@ from overrun_hitch.commands.options import (
     FmuOption,
     MapOption,
     ParametersOption,
+    ProfileOption,
     SetOption,
     TimeLimitOption,
     TypeOption,
@@ -31,6 +32,8 @@ def run(
     parameters: ParametersOption = None,
     duration: Annotated[float | None, typer.Option(help="Length of the run in s (6).")] = None,
     brake_torque: Annotated[float | None, typer.Option(help="Brake torque on the car's wheels in N.m (1000).")] = None,
+    profile: ProfileOption = None,
+    grade: Annotated[float, typer.Option(help="Rise of the road over its run, positive uphill.")] = 0.0,
     tolerance: Annotated[float, typer.Option(help="Relative tolerance of the integrator.")] = 1e-6,
     step: Annotated[float, typer.Option(help="Communication step in s.")] = 0.01,
     fmu: FmuOption = None,
@@ -40,9 +43,12 @@ def run(
     output: Annotated[Path, typer.Option(help="Folder for the files written.")] = Path("build/run"),
 ) -> int:
     """Brake car and trailer by a step, compare with theory, draw the paper's traces and write them as CSV."""
-    scenario = asked_scenario(
-        figure, case, asked_changes(parameters, set_), duration=duration, brake_torque=brake_torque
-    )
+    changes = asked_changes(parameters, set_)
+    scenario = asked_scenario(figure, case, changes, duration=duration, brake_torque=brake_torque)
+    if profile:  # what is drawn and written must not pass for the paper's
+        scenario = scenario.changed(name=f"{scenario.name}, profile {profile.stem}")
+    if grade:
+        scenario = scenario.changed(name=f"{scenario.name}, grade={grade:g}")
 
     # Imported here, because fmpy, xarray and matplotlib would slow down `hitch --help` and wrong options.
     from overrun_hitch.fmu.guest_unit import guest_file
@@ -54,13 +60,15 @@ def run(
     with guest_file(chosen_fmu(fmu), time_limit, names, use) as unit:  # which gets ready while the rest is imported
         from overrun_hitch import results
         from overrun_hitch.comparison import theory_table
+        from overrun_hitch.comparison.sources import read_profile
         from overrun_hitch.comparison.theory import compare
         from overrun_hitch.experiments.step_brake import brake, car_alone
         from overrun_hitch.show import files, terminal, traces
 
         with terminal.patience("Braking"):
-            result = brake(unit, scenario, settings)
-            rows = compare(result, brake(unit, car_alone(scenario), settings))
+            given: dict[str, Any] = {"torque": read_profile(profile) if profile else None, "grade": grade}
+            result = brake(unit, scenario, settings, **given)
+            rows = compare(result, brake(unit, car_alone(scenario), settings, **given))
     hint(scenario.parameters, scenario.brake_torque)
     stem = output / file_stem(scenario.name)
     table = stem.with_name(f"{stem.name}.csv")

@@ -128,7 +128,7 @@ def _settled_part(run: xr.Dataset) -> _Run:
         slip=_largest_slip(run, after),
         mode=shunting_mode(known, v_car) if mode_exists else None,
         stays=stays,
-        not_linear=_beyond_theory(p) or sentence,
+        not_linear=_no_step(run) or _beyond_theory(p) or sentence,
     )
 
 
@@ -143,6 +143,14 @@ def _largest_slip(run: xr.Dataset, after: slice) -> float:
     except HitchError:
         pushed = 0.0
     return max(scenario.brake_torque / p.R_c / p.C_kc, p.r * max(pushed, 0.0) / p.R_t / p.C_kt)
+
+
+def _no_step(run: xr.Dataset) -> str:
+    """What makes it another manoeuvre than the paper's; "" if nothing does."""
+    if run.attrs.get("profile"):
+        return "the brake torque is no step"
+    grade = float(run.attrs.get("grade", 0.0))
+    return f"grade = {grade:g}: the road is not level" if grade else ""
 
 
 def _beyond_theory(p: Parameters) -> str:

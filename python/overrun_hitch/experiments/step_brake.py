@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from importlib.metadata import version
 from itertools import pairwise
@@ -23,6 +24,7 @@ from overrun_hitch.results import VARIABLES, dataset, scenario_attributes
 Floats = NDArray[np.float64]
 
 MOST_STEPS = 1_000_000  # a table of 10 columns of that length takes 80 MB
+STEEPEST = 0.5  # of a road
 STANDSTILL = 0.1  # m/s: the paper's slip, a difference over the speed, means nothing at rest
 
 
@@ -33,6 +35,8 @@ def step_brake(
     relative_tolerance: float = 1e-6,
     communication_step: float = 0.01,
     time_limit: float = TIME_LIMIT,
+    torque: Torque | None = None,
+    grade: float = 0.0,
 ) -> xr.Dataset:
     """`brake` on an FMU file that is opened for this one run, in a process of its own. `time_limit` in s.
 
@@ -41,7 +45,7 @@ def step_brake(
     settings = Settings(relative_tolerance=relative_tolerance, communication_step=communication_step)
     _communication_points(scenario, settings.communication_step)  # what is wrong with it comes first
     with guest_file(fmu, time_limit) as unit:
-        return brake(unit, scenario, settings)
+        return brake(unit, scenario, settings, torque=torque, grade=grade)
 
 
 def brake(
@@ -50,11 +54,12 @@ def brake(
     settings: Settings,
     times: Floats | None = None,
     torque: Torque | None = None,
+    grade: float = 0.0,
 ) -> xr.Dataset:
     """Run `scenario` on the unit and sample it at the communication points, t = 0 included (see results.dataset).
 
     At `times` (n,) in s instead, rising from 0 or later, where they are given. `torque`: instead of a step of the
-    scenario's brake torque.
+    scenario's brake torque. `grade`: rise of the road over its run, -STEEPEST to STEEPEST.
 
     The run ends early, with attribute `ended` = "standstill", before car or trailer comes to rest, where the paper's
     model ends. HitchError for too many steps or a start at rest; what the unit refuses ends `opened_unit` with a
@@ -65,6 +70,8 @@ def brake(
     steps = [(now, then - now) for now, then in pairwise(points.tolist())]
     courses = torque.courses(points) if torque else None
     inputs = {"brake_torque": courses[0][0] if courses else scenario.brake_torque}
+    if grade:  # other people's units have no such input
+        inputs["grade"] = _checked_grade(grade)
     try:
         rows = unit.perform(drive, scenario.parameters, inputs, settings.relative_tolerance, steps, STANDSTILL, courses)
     except GuestLost as error:
@@ -73,6 +80,8 @@ def brake(
     attributes = {
         **scenario_attributes(scenario),
         **settings.model_dump(),
+        "profile": json.dumps([torque.time.tolist(), torque.values.tolist()]) if torque else "",
+        "grade": grade,
         "fmu": unit.name,
         "guid": identity.guid,
         "missing": ", ".join(identity.missing),
@@ -100,6 +109,15 @@ def _communication_points(scenario: Scenario, h: float) -> Floats:
         raise HitchError(f"communication_step = {h:g} s is not allowed: {allowed}")
     steps = math.ceil(duration / h * (1.0 - 1e-12))
     return np.append(np.arange(steps) * h, duration)
+
+
+def _checked_grade(grade: float) -> float:
+    if not abs(grade) <= STEEPEST:
+        raise HitchError(
+            f"grade = {grade:g} is not allowed: rise of the road over its run must be a finite number, at least "
+            f"{-STEEPEST:g}, at most {STEEPEST:g}"
+        )
+    return grade
 
 
 def _differences(scenario: Scenario) -> str:

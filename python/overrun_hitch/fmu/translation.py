@@ -75,7 +75,7 @@ def translation(fmu: Path, description: Any, names: Names) -> Translation:
 
 
 def _wanted() -> Iterator[tuple[str, str]]:
-    yield "brake_torque", "input"
+    yield from (("brake_torque", "input"), ("grade", "input"))
     yield from ((name, "output") for name in VARIABLES)
     yield from ((name, "parameter") for name in Parameters.model_fields)
 

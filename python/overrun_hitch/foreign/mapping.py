@@ -23,6 +23,7 @@ OURS: Mapping[str, str] = MappingProxyType(
     {
         "time": "s",
         "brake_torque": Scenario.unit("brake_torque"),
+        "grade": "1",
         **{name: unit for name, (unit, _) in VARIABLES.items()},
         **{name: Parameters.unit(name) for name in Parameters.model_fields},
     }

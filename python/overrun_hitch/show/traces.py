@@ -39,10 +39,11 @@ KINDS: dict[str, dict[str, Any]] = {"png": {"dpi": 200}, "svg": {"metadata": {"D
 def draw(run: xr.Dataset) -> Figure:
     """The three panels of a step brake (see results.dataset), with theory's steady values as thin dotted lines."""
     scenario = scenario_of(run)
-    theory = _theory(scenario)
+    is_step = not run.attrs.get("profile")
+    theory = _theory(scenario) if is_step and not run.attrs.get("grade") else None
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.4, 6.6), layout="constrained")
-        figure.suptitle(_title(scenario), fontsize=10)
+        figure.suptitle(_title(scenario, is_step), fontsize=10)
         accelerations, compression, slips = figure.subplots(3, 1, sharex=True)
         time = values(run, "time")
         for axes, car, trailer, scale in (
@@ -88,11 +89,12 @@ def _label(axes: Axes, name: str) -> None:
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=3, borderaxespad=0.0)
 
 
-def _title(scenario: Scenario) -> str:
+def _title(scenario: Scenario, is_step: bool) -> str:
     p = scenario.parameters
     name = scenario.name[:1].upper() + scenario.name[1:]
+    torque = f"{scenario.brake_torque:g} N·m at" if is_step else "braked from"
     return (
-        f"{textwrap.fill(name, 80)}\n{scenario.brake_torque:g} N·m at {p.V_0:g} m/s, $C$ = {p.C:g} N·s/m,\n"
+        f"{textwrap.fill(name, 80)}\n{torque} {p.V_0:g} m/s, $C$ = {p.C:g} N·s/m,\n"
         f"$k$ = {p.k:g} N/m, $k_t$ = {p.k_t:g} N/m, $r/k$ = {_ratio(p.r, p.k)}, $\\epsilon$ = {p.eps:g} m"
     )
 
