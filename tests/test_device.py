@@ -119,7 +119,7 @@ def test_a_lag_that_is_set_during_a_run_begins_without_a_jump(unit: HitchUnit) -
 def test_locked_wheels_brake_with_their_share_of_the_peak(
     unit: HitchUnit, mu: float, mu_slide: float, sigma: float
 ) -> None:
-    """At every speed down to rest; so the way is v^2/(2 mu_slide mu g). Tyres that lag do not rebound."""
+    """At every speed down to rest; so the way is v^2/(2 mu_slide mu g). Tyres that lag do not rebound either."""
     loose = {"k": 0.0, "k_t": 0.0, "C": 0.0, "r": 0.0}
     p = CASES["ii"].changed({**loose, "mu": mu, "mu_slide": mu_slide, "sigma": sigma, "V_0": 20.0})
     unit.start(p, {"brake_torque": 8000.0 * mu}, 1e-8)

@@ -20,10 +20,9 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
+    from overrun_hitch.experiments.torque import Torque
     from overrun_hitch.sweeps.job import Progress
     from overrun_hitch.sweeps.spec import SweepSpec
-
-    from overrun_hitch.experiments.torque import Torque
 
     Numbers = Sequence[float]
     Profile = Mapping[str, Numbers] | str | Path

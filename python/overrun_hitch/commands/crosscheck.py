@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from string import ascii_uppercase
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -74,7 +73,7 @@ def crosscheck(
     """Compare other people's FMUs and traces of the paper's step brakes with the first of them, ours or theory."""
     if propose is not None:
         return _propose(propose, output)
-    given = _enough(files_ or [])
+    given = files_ or []
     changes = asked_changes(parameters, set_)
     settings_ = {"duration": duration, "brake_torque": brake_torque}
     scenarios = [asked_scenario(name, None, changes, **settings_) for name in dict.fromkeys(figure or FIGURES)]
@@ -109,15 +108,6 @@ def crosscheck(
     else:
         crosscheck_table.show(checks, compared, allowed, paths)
     return record.status(checks)
-
-
-def _enough(given: list[Path]) -> list[Path]:
-    if len(given) < 2:
-        alone = f"{given[0]} alone" if given else "nothing"
-        raise HitchError(f"{alone} cannot be compared: two files at least are needed, the reference first")
-    if len(given) > len(ascii_uppercase):
-        raise HitchError(f"{len(given)} files are too many: {len(ascii_uppercase)} at most")
-    return given
 
 
 def _checked(

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
+from string import ascii_uppercase
 from typing import Any, Protocol
 
 import numpy as np
@@ -176,11 +177,20 @@ def read_profile(path: Path) -> Torque:
 def opened_sources(files: Sequence[Asked], time_limit: float) -> Iterator[list[Source]]:
     """All of them, for as long as they are needed. HitchError for a file that is not there or no trace."""
     checked_time_limit(time_limit)
+    _check_number(files)
     for asked in files:
         if asked.path != THEORY and not asked.path.is_file():
             raise HitchError(f"{asked.path} is not there: an FMU file or a trace is needed")
     with ExitStack() as stack:
         yield [_opened(asked, time_limit, stack) for asked in files]
+
+
+def _check_number(files: Sequence[Asked]) -> None:
+    if len(files) < 2:
+        alone = f"{files[0].path} alone" if files else "nothing"
+        raise HitchError(f"{alone} cannot be compared: two files at least are needed, the reference first")
+    if len(files) > len(ascii_uppercase):
+        raise HitchError(f"{len(files)} files are too many: {len(ascii_uppercase)} at most")
 
 
 def _opened(asked: Asked, time_limit: float, stack: ExitStack) -> Source:

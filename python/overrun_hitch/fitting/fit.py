@@ -43,6 +43,7 @@ class Fit:
     motion: Motion  # taken to be behind the trace
     model: Mapping[str, Floats]  # of each channel that was fitted, (n,) in SI units
     excess: Mapping[str, float]  # of each, rms of the residual over the noise that is expected
+    coherence: Mapping[str, float]  # of each, correlation of the residual from sample to sample; of noise 0
 
     @property
     def alike(self) -> list[tuple[str, str, float]]:
@@ -160,7 +161,10 @@ def _told(problem: Problem, u: Floats, sigma: Floats, jacobian: Floats) -> Fit:
     cov, freedom = covariance(list(jacobian.reshape(*residuals.shape, len(u))), list(residuals), problem.moved.memory)
     values, errors = (u * problem.scale).tolist(), (np.sqrt(np.diag(cov)) * problem.scale).tolist()
     effects = np.abs(jacobian).max(axis=0) / problem.scale
-    excess = np.sqrt(np.sum(residuals**2, axis=1) / np.isfinite(sigma).sum(axis=1))
+    counted = np.isfinite(sigma)
+    mean_square = np.sum(residuals**2, axis=1) / counted.sum(axis=1)
+    pairs = np.maximum((counted[:, 1:] & counted[:, :-1]).sum(axis=1), 1)
+    coherence = np.sum(residuals[:, 1:] * residuals[:, :-1], axis=1) / pairs / mean_square
     return Fit(
         parameters=problem.parameters(u),
         estimates=tuple(map(Estimate, problem.names, values, errors, freedom.tolist(), effects.tolist())),
@@ -168,5 +172,6 @@ def _told(problem: Problem, u: Floats, sigma: Floats, jacobian: Floats) -> Fit:
         trace=problem.trace,
         motion=problem.moved,
         model=dict(zip(problem.channels, problem.model(u), strict=True)),
-        excess=dict(zip(problem.channels, excess.tolist(), strict=True)),
+        excess=dict(zip(problem.channels, np.sqrt(mean_square).tolist(), strict=True)),
+        coherence=dict(zip(problem.channels, coherence.tolist(), strict=True)),
     )

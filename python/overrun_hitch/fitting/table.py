@@ -16,6 +16,7 @@ COLUMNS = (
     Column(), Column("unit"), Numbers("value"), Numbers("standard\nerror"), Numbers("95 %\nfrom"), Numbers("\nto"),
     Column(),
 )  # fmt: skip
+COHERENT = 0.2  # correlation from sample to sample: noise left in a motion that bends softly makes up to 0.15
 MISFIT = 2.0  # rms of a residual over the noise that is expected, from which on it is more than noise
 
 
@@ -47,6 +48,12 @@ def remarks(found: Fit) -> list[str]:
                 f"{name} is off by {excess:.2g} times its noise: something moves it that was not fitted, "
                 "and the standard errors are too small"
             )
+        elif found.coherence[name] > COHERENT:
+            said.append(
+                f"what is left of {name} hangs together (correlation {found.coherence[name]:.2f} from sample to "
+                "sample, noise has 0): the motion bends sharper than its noise lets see, and values may be off by five "
+                "standard errors; soften the stops, or measure the travel better"
+            )
     return said
 
 
@@ -67,6 +74,7 @@ def document(name: str, found: Fit, guesses: Sequence[str], paths: Sequence[Path
         },
         "correlation": found.correlation.tolist(),
         "residual_over_noise": dict(found.excess),
+        "residual_correlation": dict(found.coherence),
         "remarks": [*guesses, *remarks(found)],
         "files": [str(path) for path in paths],
     }
