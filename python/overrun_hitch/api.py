@@ -63,10 +63,10 @@ def run(
     """A step brake of the paper's figure ("8" unless said otherwise) or of figure 8 with a case's parameters.
 
     `parameters` change single ones: C=200. brake_torque in N.m on the car's wheels (1000), duration in s (6). profile:
-    the brake torque over time instead, {"time": [...], "brake_torque": [...]} or a file with these columns, straight lines
-    between knots, two knots at one time for a jump. grade: rise of the road over its run, positive uphill.
-    communication_step in s, from output point to output point. fmu: a file of somebody else's; it runs, like ours, in a
-    process of its own for at most time_limit (s).
+    the brake torque over time instead, {"time": [...], "brake_torque": [...]} or a file with these columns, straight
+    lines between knots, two knots at one time for a jump. grade: rise of the road over its run, positive uphill.
+    communication_step in s, from output point to output point. fmu: a file of somebody else's; it runs, like ours, in
+    a process of its own for at most time_limit (s).
 
     The result has the FMU's outputs (time,) with units and long_name, and what was run as attributes.
 
