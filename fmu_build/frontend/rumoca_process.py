@@ -20,6 +20,7 @@ import rumoca
 
 from .algorithms import as_equations, first_section
 from .source_tree import SourceTree, copy_of_needed, whole_tree
+from .table_calls import with_calls_in_sums
 
 Request = Mapping[str, Any]
 Files = list[tuple[int, str, str]]  # number, name and text of each
@@ -27,6 +28,8 @@ Files = list[tuple[int, str, str]]  # number, name and text of each
 MISSING = re.compile("unresolved|not found|does not exist|resolve/parse failed")
 ALGORITHM = "unsupported model algorithm"
 ALGORITHM_REMEDY = "what is assigned twice, or not in every branch, needs two names; or write the section as a function"
+# What rumoca says, and what says the same in a way that it takes.
+REWRITES = ((ALGORITHM, as_equations), ("unbalanced model", with_calls_in_sums))
 # What rumoca says, what shows the place in the source, and what to do.
 REMEDIES = (
     (
@@ -94,23 +97,23 @@ def _trees(entry: Path, request: Request, folder: Path) -> Iterator[SourceTree]:
 
 
 def _compiled(tree: SourceTree, class_name: str) -> tuple[rumoca.Model, Files]:
+    """The same, of one tree; where rumoca refuses what can be said otherwise, the texts of a copy are rewritten."""
     os.environ["MODELICAPATH"] = os.pathsep.join(map(str, tree.modelica_path))
-    try:
-        model = rumoca.Session(roots=[*map(str, tree.libraries)]).load(str(tree.entry), model=class_name)
-    except rumoca.RumocaError as error:
-        if ALGORITHM not in str(error) or not tree.written:
-            raise
-        model = _with_equations(tree, class_name)
+    rewrites = dict(REWRITES if tree.written else ())
+    while True:
+        try:
+            model = rumoca.Session(roots=[*map(str, tree.libraries)]).load(str(tree.entry), model=class_name)
+            break
+        except rumoca.RumocaError as error:
+            said = next((message for message in rewrites if message in str(error)), None)
+            if said is None:
+                raise
+        rewrite = rewrites.pop(said)
+        for file in tree.written:
+            file.write_text(rewrite(file.read_text(encoding="utf-8")), encoding="utf-8")
     return model, [
         (number, tree.original(name), text) for number, name, text in model.to_dict("dae")["source_map"]["files"]
     ]
-
-
-def _with_equations(tree: SourceTree, class_name: str) -> rumoca.Model:
-    """The compiled class, with algorithm sections as equations where that says the same."""
-    for file in tree.written:
-        file.write_text(as_equations(file.read_text(encoding="utf-8")), encoding="utf-8")
-    return rumoca.Session(roots=[*map(str, tree.libraries)]).load(str(tree.entry), model=class_name)
 
 
 def _simulated(model: rumoca.Model, request: Request) -> dict[str, Any]:
