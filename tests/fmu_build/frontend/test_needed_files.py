@@ -15,6 +15,7 @@ from fmu_build.frontend import rumoca_process
 from fmu_build.frontend.loading import load
 from fmu_build.frontend.needed_files import needed_files, packages
 from fmu_build.frontend.source_tree import copy_of_needed, whole_tree
+from tests import standard_library
 
 ROOT = Path(__file__).parents[3]
 DECAY = "  Real x(start=1, fixed=true);\nequation\n  der(x) = -x;\n"
@@ -164,26 +165,14 @@ def test_our_own_library(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert ours[0] == ours[1]
 
 
-STANDARD = next(
-    (
-        path
-        for folder in os.environ.get("MODELICAPATH", "").split(os.pathsep)
-        for path in sorted(Path(folder or os.devnull).glob("Modelica*"))
-        if (path / "Mechanics" / "package.mo").is_file()
-    ),
-    None,
-)
-
-
 @pytest.mark.full
-@pytest.mark.skipif(STANDARD is None, reason="MODELICAPATH names no Modelica Standard Library")
+@standard_library.needed
 def test_the_standard_library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A dozen of its examples; what rumoca refuses, it refuses in the same words."""
-    assert STANDARD is not None
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     named = os.environ["MODELICAPATH"]
     session = rumoca.Session()
-    entry = STANDARD / "package.mo"
+    entry = standard_library.FOLDER / "package.mo"
     for number, name in enumerate(EXAMPLES.split()):
         class_name = f"Modelica.{name}"
         monkeypatch.setenv("MODELICAPATH", named)

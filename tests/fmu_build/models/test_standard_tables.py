@@ -234,7 +234,7 @@ end M;
 @pytest.mark.parametrize(
     "text",
     [
-        'parameter Real a =\n    if b then getTable1DValue(t, 1, 0)\n    else getTimeTableValue(t, 1, 0, 0, 0)\n    "x";',
+        'Real a =\n    if b then getTable1DValue(t, 1, 0)\n    else getTimeTableValue(t, 1, 0, 0, 0)\n    "x";',
         "Real a = getTable1DValueNoDer2(t, 1, u)   ;",
     ],
 )
