@@ -133,6 +133,12 @@ MODELS = {
         "c.v",
         late(lambda t: 1 - exp(-t / 2) * (cos(A * t) + sin(A * t) / (2 * A))),
     ),
+    "TimeTable": Model(
+        f"{BLOCKS}.Sources.TimeTable t(table=[0, 0; 1, 0; 1, 1; 2, 4], timeScale=0.5, offset=7, startTime=0.1);",
+        "",
+        "t.y",
+        lambda t: 7 + max(0.0, 3 * (t - 0.1) / 0.5 - 2) * (t > 0.6),
+    ),
     "CombiTimeTable": Model(
         f"{BLOCKS}.Sources.CombiTimeTable t(table=[0, 1, 5; 1, 2, 4; 1, 3, 4; 3, 7, 0], columns={{3, 2}},"
         f" offset={{10, 20}}, startTime=0.1, timeScale=0.5, extrapolation={BLOCKS}.Types.Extrapolation.Periodic);",

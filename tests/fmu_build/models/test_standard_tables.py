@@ -140,6 +140,50 @@ BLOCKS = """package Blocks
       nextTimeEvent = if nextTimeEventScaled < 1e60 then nextTimeEventScaled*timeScale else 1e60;
     end when;
   end Course;
+  block TimeTable
+    parameter Real table[:, 2];
+    parameter Real timeScale = 1;
+    parameter Real offset = 0;
+    parameter Real startTime = 0;
+    parameter Real shiftTime = startTime;
+    discrete Real a;
+    discrete Real b;
+    Integer last(start = 1);
+    discrete Real nextEvent(start = 0, fixed = true);
+    discrete Real nextEventScaled(start = 0, fixed = true);
+    Real timeScaled;
+    Real y;
+    function getInterpolationCoefficients
+      input Real table[:, 2];
+      input Real offset;
+      input Real startTimeScaled;
+      input Real timeScaled;
+      input Integer last;
+      input Real TimeEps;
+      input Real shiftTimeScaled;
+      output Real a;
+      output Real b;
+      output Real nextEventScaled;
+      output Integer next;
+    algorithm
+      next := last;
+      while next < size(table, 1) and timeScaled >= table[next, 1] loop
+        next := next + 1;
+      end while;
+      a := 0;
+      b := 0;
+      nextEventScaled := 0;
+    end getInterpolationCoefficients;
+  algorithm
+    when {time >= pre(nextEvent), initial()} then
+      (a, b, nextEventScaled, last) := getInterpolationCoefficients(table, offset, startTime/timeScale, timeScaled,
+        last, 1e-13, shiftTime/timeScale);
+      nextEvent := nextEventScaled*timeScale;
+    end when;
+  equation
+    timeScaled = time/timeScale;
+    y = a*timeScaled + b;
+  end TimeTable;
 end Blocks;
 """
 
@@ -243,6 +287,27 @@ def test_places_stay_what_they_are(text: str) -> None:
     assert changed.count(")+0") == text.count("getT")
     assert len(changed) == len(text) and changed.count("\n") == text.count("\n")
     assert changed.replace("+0", "").split() == text.split()
+
+
+@pytest.mark.parametrize("scale", [1.0, 60.0])
+def test_time_table(scale: float, built: Build) -> None:
+    """The example of the library's documentation; later, in another unit, and shifted."""
+    table = "table=[0, 0; 1, 0; 1, 1; 2, 4; 3, 9; 4, 16]"
+    given = f"timeScale={scale}, offset=7, startTime={0.5 * scale}, shiftTime={-0.25 * scale}"
+    text = f"{BLOCKS}model M\n  Blocks.TimeTable t({table});\n  Blocks.TimeTable u({table}, {given});\nend M;\n"
+    fmu = built(text, 2)
+    result = fmpy.simulate_fmu(str(fmu), stop_time=5 * scale, output_interval=0.1 * scale, output=["t.y", "u.y"])
+    at, inside = result["time"], result["time"] < 5
+
+    def line(time: float) -> float:
+        found = np.interp(time, [0, 1, 1 + 1e-12, 2, 3, 4, 5], [0, 0, 1, 4, 9, 16, 23])
+        return float(found)
+
+    for time, value in zip(at[inside], result["t.y"][inside], strict=True):
+        assert value == pytest.approx(line(time), abs=1e-9) or abs(time - 1) < 1e-9
+    for time, value in zip(at / scale, result["u.y"], strict=True):
+        right = 7 + line(time + 0.25) if time + 0.25 < 5 else 7 + 23 + 7 * (time - 4.75)
+        assert value == pytest.approx(7 if time < 0.5 else right, abs=1e-9) or abs(time - 0.5) < 1e-9
 
 
 @pytest.mark.parametrize(
