@@ -127,6 +127,17 @@ def test_wherever_libraries_are_named(way: str, folder: Path, monkeypatch: pytes
     assert not (folder / "cache").exists()
 
 
+def test_a_library_behind_a_link(folder: Path) -> None:
+    """It is found there; links that lead in circles are not followed."""
+    (folder / "links").mkdir()
+    (folder / "links" / "Big").symlink_to(folder / "libraries" / "Big")
+    (folder / "links" / "round").symlink_to(folder / "links")
+    (folder / "M.mo").write_text("model M\n  Big.Parts.Fast p;\nend M;\n", encoding="utf-8")
+    _, sources = load(folder / "M.mo", "M", [folder / "links"])
+    names = {name for name, _ in sources._files.values()}
+    assert str(folder / "links" / "Big" / "Parts" / "Fast.mo") in names and len(names) < len(LIBRARY)
+
+
 def test_files_that_are_not_called_like_their_classes(folder: Path) -> None:
     """Only the whole library has them."""
     odd = folder / "libraries" / "Big" / "Parts" / "Fast.mo"
