@@ -60,6 +60,8 @@ def _targets(nodes: Sequence[Node]) -> Iterator[str]:
         tag, body = next(iter(node.items()))
         if tag in {"Assign", "Assignment"}:
             yield _target(body)
+        elif tag == "FunctionCall":
+            yield from (_target({"comp": output}) for output in body["outputs"] if output is not None)
         elif tag == "For":
             yield from _targets(body["equations"])
         elif tag in {"Conditional", "If", "When"}:
@@ -126,6 +128,8 @@ def _statement(node: Node, reader: EventReader, *, event_free: bool) -> Sequence
     try:
         if tag in {"Assign", "Assignment"}:
             return [_assignment(body, reader, origin, event_free=event_free)]
+        if tag == "FunctionCall":
+            return [_outputs(body, reader, origin)]
         if tag == "For":
             return list(_loop(body["indices"], body["equations"], reader, event_free=event_free))
     except ValueError as error:
@@ -165,6 +169,16 @@ def _assignment(body: Node, reader: EventReader, origin: str, *, event_free: boo
     pairs = zip(elements(target), elements_for(target, value), strict=True)
     one, *others = (Assignment(scalar.name, part, origin) for scalar, part in pairs)
     return Together((one, *others)) if others else one
+
+
+def _outputs(body: Node, reader: EventReader, origin: str) -> Statement:
+    """``(a, b) := f(x)``; a place may be empty. Inside functions there are no events."""
+    values = reader.outputs({**body, "name": body["comp"], "is_constructor": False})
+    targets = [
+        (_scalars({"comp": o}, reader), v) for o, v in zip(body["outputs"], values, strict=False) if o is not None
+    ]
+    pairs = [p for t, v in targets for p in zip(elements(t), elements_for(t, v), strict=True)]
+    return Together(tuple(Assignment(scalar.name, part, origin) for scalar, part in pairs))
 
 
 def _loop(

@@ -15,7 +15,7 @@ import numpy as np
 import sympy
 
 from .reader import Reader
-from .standard_tables import evaluate
+from .standard_tables import TIME_TABLE, evaluate, line_in_time
 from .subscripts import indices
 from .values import Value, combine, each, full
 
@@ -27,6 +27,8 @@ MAX_PASSES = 10_000  # of a while
 def call(reader: Reader, function: Node, arguments: Sequence[Value]) -> tuple[Value, ...]:
     """The outputs of a function."""
     inputs = function["inputs"]
+    if function["name"].endswith(TIME_TABLE):
+        return line_in_time(reader, arguments)
     if function["external"] is not None:
         if (value := evaluate(function, arguments)) is not None:
             return (value,)

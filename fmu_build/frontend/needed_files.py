@@ -46,7 +46,8 @@ def packages(folder: Path) -> Iterator[Path]:
         yield folder
         return
     for path in sorted(folder.iterdir()):
-        if path.is_dir() and not path.is_symlink():
+        is_looked_into = not path.is_symlink() and not path.name.startswith(".")
+        if path.is_dir() and (is_looked_into or _file(path).is_file()):
             yield from packages(path)
         elif path.suffix == ".mo" and path.is_file():
             yield path
@@ -81,7 +82,7 @@ class _Search:
         self.files.add(_file(path))
         self._take(_read(_file(path)))
         for other in sorted(path.iterdir()) if path.is_dir() else ():
-            if (_file(other)).is_file() and other.name != "package.mo":
+            if _file(other).is_file() and other.name != "package.mo":
                 self.offer(other.stem if other.suffix == ".mo" else other.name, other)
 
     def _take(self, found: _Class) -> None:

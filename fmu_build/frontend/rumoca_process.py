@@ -12,7 +12,7 @@ import json
 import os
 import re
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +20,7 @@ import rumoca
 
 from .rewriting.restated import algorithm_left, restated
 from .source_tree import SourceTree, copy_of_needed, whole_tree
+from .table_calls import with_calls_in_sums
 
 Request = Mapping[str, Any]
 Files = list[tuple[int, str, str]]  # number, name and text of each
@@ -27,6 +28,9 @@ Files = list[tuple[int, str, str]]  # number, name and text of each
 MISSING = re.compile("unresolved|not found|does not exist|resolve/parse failed")
 ALGORITHM = "unsupported model algorithm"
 ALGORITHM_REMEDY = "what is assigned twice, or not in every branch, needs two names; or write the section as a function"
+Rewrite = Callable[[str], str]
+# What rumoca says, and what says the same in a way that it takes; the last, whatever it says.
+REWRITES: Sequence[tuple[str, Rewrite]] = (("unbalanced model", with_calls_in_sums), ("", restated))
 # What rumoca says, what shows the place in the source, and what to do.
 REMEDIES = (
     (
@@ -94,26 +98,31 @@ def _trees(entry: Path, request: Request, folder: Path) -> Iterator[SourceTree]:
 
 
 def _compiled(tree: SourceTree, class_name: str) -> tuple[rumoca.Model, Files]:
+    """The same, of one tree; where rumoca refuses what can be said otherwise, the texts of a copy are rewritten."""
     os.environ["MODELICAPATH"] = os.pathsep.join(map(str, tree.modelica_path))
-    try:
-        model = rumoca.Session(roots=[*map(str, tree.libraries)]).load(str(tree.entry), model=class_name)
-    except rumoca.RumocaError as error:
-        model = _restated(tree, class_name, error)
+    model = _model(tree, class_name, REWRITES if tree.written else ())
     return model, [
         (number, tree.original(name), text) for number, name, text in model.to_dict("dae")["source_map"]["files"]
     ]
 
 
-def _restated(tree: SourceTree, class_name: str, error: rumoca.RumocaError) -> rumoca.Model:
-    """The compiled class of what rumoca refuses, said in other words, if there are some."""
-    changed = False
-    for file in tree.written:
-        text = file.read_text(encoding="utf-8")
-        file.write_text(restated(text), encoding="utf-8")
-        changed |= file.read_text(encoding="utf-8") != text
-    if not changed:
-        raise error
-    return rumoca.Session(roots=[*map(str, tree.libraries)]).load(str(tree.entry), model=class_name)
+def _model(tree: SourceTree, class_name: str, rewrites: Sequence[tuple[str, Rewrite]]) -> rumoca.Model:
+    try:
+        return rumoca.Session(roots=[*map(str, tree.libraries)]).load(str(tree.entry), model=class_name)
+    except rumoca.RumocaError as error:
+        for place, (said, rewrite) in enumerate(rewrites):
+            if said in str(error) and _changed(tree, rewrite):
+                return _model(tree, class_name, [*rewrites[:place], *rewrites[place + 1 :]])
+        raise
+
+
+def _changed(tree: SourceTree, rewrite: Rewrite) -> bool:
+    """Whether there was something to rewrite in the files of a copy."""
+    texts = {file: file.read_text(encoding="utf-8") for file in tree.written}
+    rewritten = {file: rewrite(text) for file, text in texts.items()}
+    for file, text in rewritten.items():
+        file.write_text(text, encoding="utf-8")
+    return rewritten != texts
 
 
 def _simulated(model: rumoca.Model, request: Request) -> dict[str, Any]:

@@ -12,7 +12,6 @@ step, and at an event the value before it is there until the event has happened.
 from __future__ import annotations
 
 import itertools
-import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -24,7 +23,7 @@ from ..ir.conditions import compare
 from ..ir.functions import no_number, round_down
 from .reader import Reader
 from .splines import akima, cubics, fritsch_butland, modified_akima, steffen
-from .values import ZERO, Value
+from .values import ONE, ZERO, Value
 
 Node = Mapping[str, Any]
 PREFIX = "ModelicaStandardTables_"
@@ -32,7 +31,8 @@ LINEAR, CONSTANT = 1, 3  # Modelica.Blocks.Types.Smoothness
 SPLINES = {2: akima, 4: fritsch_butland, 5: steffen, 6: modified_akima}
 HOLD, LAST_TWO, PERIODIC, NONE = 1, 2, 3, 4  # Modelica.Blocks.Types.Extrapolation
 ALWAYS, AT_DISCONTINUITIES = 1, 2  # Modelica.Blocks.Types.TimeEvents
-INFINITE = sympy.Float(sys.float_info.max)  # Modelica.Constants.inf
+TIME_TABLE = "TimeTable.getInterpolationCoefficients"
+INFINITE = sympy.Float(1e60)  # s: never; a time scale does not make it infinite
 SAME = 1e-6  # of the shortest interval between events: as close is at one
 
 
@@ -73,6 +73,18 @@ def table(reader: Reader, function: Node, arguments: Sequence[Node]) -> Table:
         points = ", ".join(f"{point:g}" for point in made.points)
         raise ValueError(f"the first column of a table has to increase: it is {points}")
     return made
+
+
+def line_in_time(reader: Reader, arguments: Sequence[Value]) -> tuple[Value, ...]:
+    """What TimeTable.getInterpolationCoefficients gives: a, b of a*time + b, the next event, a row that is not used.
+
+    It is no external function, but searches the table by a ``while``, from the row that it found the last time.
+    """
+    values, offset, start, time, _, _, shift = arguments
+    points = tuple(_numbers(reader, values[:, 0]))
+    made = Table(reader, points, values, [2], LINEAR, LAST_TWO, ALWAYS, start, shift)
+    slope, at_zero = made.line(time)
+    return slope, offset + at_zero, made.next_event(time), ONE
 
 
 def evaluate(function: Node, arguments: Sequence[Value]) -> sympy.Expr | None:
@@ -131,6 +143,22 @@ class Table:
         begun = self._next(time - self.shift) if len(self.points) > 1 else INFINITE
         is_before = compare(sympy.Gt, self.start, time + self._margin)
         return sympy.Piecewise((self.start, is_before), (begun, True), evaluate=False)
+
+    def line(self, time: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
+        """Slope and value at 0 of the line that holds from a time to the next event, for events alone."""
+        place = sympy.Dummy()
+        if len(self.points) == 1:
+            options = [self._value(0, ONE)]
+        else:
+            pieces = self._pieces(ONE)
+            left, right = (self._outside(pieces, ONE, place, at_right=side) for side in (False, True))
+            options = [left, *(piece(place) for piece in pieces), right]
+        near = [sympy.Float(event - self._margin) for event in (self._events() if len(self.points) > 1 else ())]
+        is_before = compare(sympy.Gt, self.start, time + self._margin)
+        slopes = [sympy.diff(option, place) for option in options]
+        values = [option.xreplace({place: -self.shift}) for option in options]
+        slope, value = (_choose(near, parts, time - self.shift) for parts in (slopes, values))
+        return tuple(sympy.Piecewise((ZERO, is_before), (part, True), evaluate=False) for part in (slope, value))
 
     def _next(self, time: sympy.Expr) -> sympy.Expr:
         events, cycles, after = self._events(), ZERO, INFINITE

@@ -15,6 +15,7 @@ from fmu_build.frontend import rumoca_process
 from fmu_build.frontend.loading import load
 from fmu_build.frontend.needed_files import needed_files, packages
 from fmu_build.frontend.source_tree import copy_of_needed, whole_tree
+from tests import standard_library
 
 ROOT = Path(__file__).parents[3]
 DECAY = "  Real x(start=1, fixed=true);\nequation\n  der(x) = -x;\n"
@@ -126,6 +127,17 @@ def test_wherever_libraries_are_named(way: str, folder: Path, monkeypatch: pytes
     assert not (folder / "cache").exists()
 
 
+def test_a_library_behind_a_link(folder: Path) -> None:
+    """It is found there; links that lead in circles are not followed."""
+    (folder / "links").mkdir()
+    (folder / "links" / "Big").symlink_to(folder / "libraries" / "Big")
+    (folder / "links" / "round").symlink_to(folder / "links")
+    (folder / "M.mo").write_text("model M\n  Big.Parts.Fast p;\nend M;\n", encoding="utf-8")
+    _, sources = load(folder / "M.mo", "M", [folder / "links"])
+    names = {name for name, _ in sources._files.values()}
+    assert str(folder / "links" / "Big" / "Parts" / "Fast.mo") in names and len(names) < len(LIBRARY)
+
+
 def test_files_that_are_not_called_like_their_classes(folder: Path) -> None:
     """Only the whole library has them."""
     odd = folder / "libraries" / "Big" / "Parts" / "Fast.mo"
@@ -164,26 +176,14 @@ def test_our_own_library(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert ours[0] == ours[1]
 
 
-STANDARD = next(
-    (
-        path
-        for folder in os.environ.get("MODELICAPATH", "").split(os.pathsep)
-        for path in sorted(Path(folder or os.devnull).glob("Modelica*"))
-        if (path / "Mechanics" / "package.mo").is_file()
-    ),
-    None,
-)
-
-
 @pytest.mark.full
-@pytest.mark.skipif(STANDARD is None, reason="MODELICAPATH names no Modelica Standard Library")
+@standard_library.needed
 def test_the_standard_library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A dozen of its examples; what rumoca refuses, it refuses in the same words."""
-    assert STANDARD is not None
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     named = os.environ["MODELICAPATH"]
     session = rumoca.Session()
-    entry = STANDARD / "package.mo"
+    entry = standard_library.FOLDER / "package.mo"
     for number, name in enumerate(EXAMPLES.split()):
         class_name = f"Modelica.{name}"
         monkeypatch.setenv("MODELICAPATH", named)

@@ -14,6 +14,7 @@ from scipy.interpolate import Akima1DInterpolator
 from fmu_build.errors import BuildError
 from fmu_build.frontend.flatten import flatten
 from fmu_build.frontend.splines import akima, cubics
+from fmu_build.frontend.table_calls import with_calls_in_sums
 from tests.fmu_build.conftest import Build, Writer
 from tests.oracles.standard_tables.cases import POINTS, REPEATED, SHIFT, START, TIMES, VALUES, names, parts
 
@@ -71,19 +72,19 @@ BLOCKS = """package Blocks
       output Integer n;
     external "C" n = ModelicaStrings_length(s);
     end length;
-    function curveAt
+    function getTable1DValue
       input Types.Curve tableID;
       input Integer icol;
       input Real u;
       output Real y;
     external "C" y = ModelicaStandardTables_CombiTable1D_getValue(tableID, icol, u);
-    end curveAt;
+    end getTable1DValue;
     function lowest
       input Types.Curve tableID;
       output Real u;
     external "C" u = ModelicaStandardTables_CombiTable1D_minimumAbscissa(tableID);
     end lowest;
-    function courseAt "With the arguments in another order"
+    function getTimeTableValue "With the arguments in another order"
       input Integer icol;
       input Types.Course tableID;
       input Real t;
@@ -91,7 +92,7 @@ BLOCKS = """package Blocks
       input Real before;
       output Real y;
     external "C" y = ModelicaStandardTables_CombiTimeTable_getValue(tableID, icol, t, event, before);
-    end courseAt;
+    end getTimeTableValue;
     function nextEvent
       input Types.Course tableID;
       input Real t;
@@ -114,7 +115,7 @@ BLOCKS = """package Blocks
     Real u;
     Real y;
   equation
-    y = Internal.curveAt(tableID, 1, u);
+    y = Internal.getTable1DValue(tableID, 1, u);
   end Curve;
   block Course
     parameter Real table[:, :];
@@ -133,12 +134,56 @@ BLOCKS = """package Blocks
     Real y;
   equation
     timeScaled = time/timeScale;
-    y = Internal.courseAt(1, tableID, timeScaled, nextTimeEventScaled, pre(nextTimeEventScaled));
+    y = Internal.getTimeTableValue(1, tableID, timeScaled, nextTimeEventScaled, pre(nextTimeEventScaled));
     when {time >= pre(nextTimeEvent), initial()} then
       nextTimeEventScaled = Internal.nextEvent(tableID, timeScaled);
       nextTimeEvent = if nextTimeEventScaled < 1e60 then nextTimeEventScaled*timeScale else 1e60;
     end when;
   end Course;
+  block TimeTable
+    parameter Real table[:, 2];
+    parameter Real timeScale = 1;
+    parameter Real offset = 0;
+    parameter Real startTime = 0;
+    parameter Real shiftTime = startTime;
+    discrete Real a;
+    discrete Real b;
+    Integer last(start = 1);
+    discrete Real nextEvent(start = 0, fixed = true);
+    discrete Real nextEventScaled(start = 0, fixed = true);
+    Real timeScaled;
+    Real y;
+    function getInterpolationCoefficients
+      input Real table[:, 2];
+      input Real offset;
+      input Real startTimeScaled;
+      input Real timeScaled;
+      input Integer last;
+      input Real TimeEps;
+      input Real shiftTimeScaled;
+      output Real a;
+      output Real b;
+      output Real nextEventScaled;
+      output Integer next;
+    algorithm
+      next := last;
+      while next < size(table, 1) and timeScaled >= table[next, 1] loop
+        next := next + 1;
+      end while;
+      a := 0;
+      b := 0;
+      nextEventScaled := 0;
+    end getInterpolationCoefficients;
+  algorithm
+    when {time >= pre(nextEvent), initial()} then
+      (a, b, nextEventScaled, last) := getInterpolationCoefficients(table, offset, startTime/timeScale, timeScaled,
+        last, 1e-13, shiftTime/timeScale);
+      nextEvent := nextEventScaled*timeScale;
+    end when;
+  equation
+    timeScaled = time/timeScale;
+    y = a*timeScaled + b;
+  end TimeTable;
 end Blocks;
 """
 
@@ -212,12 +257,65 @@ def test_values_of_straight_lines_can_be_set_and_jumps_are_events(built: Build) 
         assert result["x"][-1] == pytest.approx(1 + (3 + top) / 2, abs=1e-12)
 
 
+def test_a_parameter_bound_to_a_value_of_a_table(modelica_file: Writer) -> None:
+    """rumoca takes it for an array, as it stands."""
+    text = f"""{BLOCKS}model M
+  parameter Blocks.Types.Curve c = Blocks.Types.Curve("NoName", "NoName", [0, 3; 1, 4], {{2}}, 1);
+  parameter Real k = Blocks.Internal.getTable1DValue(c, 1, 0)
+    "Used in two equations";
+  Real x(start=0, fixed=true);
+  Real y;
+equation
+  y = k*x;
+  der(x) = k*time;
+end M;
+"""
+    model = flatten(modelica_file(text), "M")
+    assert {v.name: v.binding for v in model.variables}["k"] == 3
+    assert [equation.origin for equation in model.equations] == [f"M.mo:{text.count(chr(10)) - n}" for n in (2, 1)]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        'Real a =\n    if b then getTable1DValue(t, 1, 0)\n    else getTimeTableValue(t, 1, 0, 0, 0)\n    "x";',
+        "Real a = getTable1DValueNoDer2(t, 1, u)   ;",
+    ],
+)
+def test_places_stay_what_they_are(text: str) -> None:
+    changed = with_calls_in_sums(text)
+    assert changed.count(")+0") == text.count("getT")
+    assert len(changed) == len(text) and changed.count("\n") == text.count("\n")
+    assert changed.replace("+0", "").split() == text.split()
+
+
+@pytest.mark.parametrize("scale", [1.0, 60.0])
+def test_time_table(scale: float, built: Build) -> None:
+    """The example of the library's documentation; later, in another unit, and shifted."""
+    table = "table=[0, 0; 1, 0; 1, 1; 2, 4; 3, 9; 4, 16]"
+    given = f"timeScale={scale}, offset=7, startTime={0.5 * scale}, shiftTime={-0.25 * scale}"
+    text = f"{BLOCKS}model M\n  Blocks.TimeTable t({table});\n  Blocks.TimeTable u({table}, {given});\nend M;\n"
+    fmu = built(text, 2)
+    result = fmpy.simulate_fmu(str(fmu), stop_time=5 * scale, output_interval=0.1 * scale, output=["t.y", "u.y"])
+    at, inside = result["time"], result["time"] < 5
+
+    def line(time: float) -> float:
+        found = np.interp(time, [0, 1, 1 + 1e-12, 2, 3, 4, 5], [0, 0, 1, 4, 9, 16, 23])
+        return float(found)
+
+    for time, value in zip(at[inside], result["t.y"][inside], strict=True):
+        assert value == pytest.approx(line(time), abs=1e-9) or abs(time - 1) < 1e-9
+    for time, value in zip(at / scale, result["u.y"], strict=True):
+        right = 7 + line(time + 0.25) if time + 0.25 < 5 else 7 + 23 + 7 * (time - 4.75)
+        assert value == pytest.approx(7 if time < 0.5 else right, abs=1e-9) or abs(time - 0.5) < 1e-9
+
+
 @pytest.mark.parametrize(
     ("declared", "message"),
     [
         (
             'parameter Blocks.Types.Curve c = Blocks.Types.Curve("t", "NoName", [0, 1; 1, 2], {2}, 1);'
-            " Real y = Blocks.Internal.curveAt(c, 1, time)",
+            " Real y = Blocks.Internal.getTable1DValue(c, 1, time)",
             "a table (read )?from a file",
         ),
         ("Blocks.Curve c(table=[0, 1; 0, 2], u=time)", "the first column of a table has to increase: it is 0, 0"),

@@ -42,6 +42,35 @@ end Arrays;
 """
 
 
+OUTPUTS = """
+function following
+  input Integer n;
+  input Real x;
+  output Integer next;
+  output Real pair[2];
+  output Real unused;
+algorithm
+  next := n + 1;
+  pair := {x, 2*x};
+  unused := 0;
+end following;
+model Outputs
+  Integer steps(start=0, fixed=true);
+  discrete Real pair[2](each start=0, each fixed=true);
+algorithm
+  when sample(0.1, 0.1) then
+    (steps, pair) := following(pre(steps), time);
+  end when;
+end Outputs;
+"""
+
+
+def test_several_outputs_at_events(way: Way) -> None:
+    for step, row in enumerate(way.run(OUTPUTS, 0.5, 0.05, ["steps", "pair[1]", "pair[2]"])):
+        ticks = step // 2
+        assert (row["steps"], row["pair[1]"], row["pair[2]"]) == pytest.approx((ticks, 0.1 * ticks, 0.2 * ticks))
+
+
 def test_arrays_at_events(way: Way) -> None:
     outputs = ["count[1]", "count[3]", "moments[1,2]", "moments[2,1]", "passed", "level[3]", "x[1]", "x[2]"]
     result = way.run(ARRAYS, 0.95, 0.05, outputs)
