@@ -97,6 +97,9 @@ class Printer(C11CodePrinter):  # type: ignore[misc]
     def _print_no_number(self, expr: no_number) -> str:
         return "(double)NAN"
 
+    # What sqrt(p) and 1/p become of a final parameter.
+    _print_ImaginaryUnit = _print_ComplexInfinity = _print_NaN = _print_no_number
+
     def _print_reach_time(self, expr: reach_time) -> str:
         value, rest, slope = (self._print(argument) for argument in expr.args)
         return f"((({value}) - ({rest}))/({slope}))"
