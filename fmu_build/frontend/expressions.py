@@ -227,6 +227,10 @@ class ExpressionReader:
                 return [str(f["name"]) for f in record["fields"]]
         raise ValueError(f"{name}(): not supported; write a function with an algorithm in Modelica")
 
+    def assertion(self, node: Mapping[str, Any]) -> None:
+        """Keep what a function asserts."""
+        raise NotImplementedError
+
     def _several(self, body: Mapping[str, Any]) -> Value:
         """``(a, b) = f(x)``, as the residuals a - y1, b - y2; a place may be empty."""
         places = body["lhs"]["Tuple"]["elements"]
