@@ -97,6 +97,9 @@ class Printer(C11CodePrinter):  # type: ignore[misc]
     def _print_no_number(self, expr: no_number) -> str:
         return "(double)NAN"
 
+    # What sqrt(p) and 1/p become of a final parameter.
+    _print_ImaginaryUnit = _print_ComplexInfinity = _print_NaN = _print_no_number
+
     def _print_reach_time(self, expr: reach_time) -> str:
         value, rest, slope = (self._print(argument) for argument in expr.args)
         return f"((({value}) - ({rest}))/({slope}))"
@@ -165,7 +168,7 @@ def in_pieces(signature: str, statements: Sequence[str], n_locals: int = 0) -> s
 def whole(signature: str, statements: Sequence[str]) -> str:
     """A C function in one; parameters that its statements do not use are marked so."""
     lines = [line for statement in statements for line in statement.split("\n")]
-    body = re.sub(r"/\*.*?\*/|->\w+", "", "\n".join(lines))  # comments and fields may have the same name
+    body = re.sub(r'/\*.*?\*/|->\w+|"(\\.|[^"\\])*"', "", "\n".join(lines))  # which may hold the same name
     unused = [f"(void){a};" for a in _arguments(signature) if not re.search(rf"\b{a}\b", body)]
     text = "\n".join(f"    {line}" for line in [*unused, *lines])
     static = "static " if signature.startswith("static ") else ""

@@ -44,7 +44,7 @@ def initialize(system: EquationSystem) -> EquationSystem:
         open_ = free_coordinates(open_, [*required, *system.invariants], unknowns, variables)
     guesses = [_start(name, system, variables) for name in open_]
     equations = _complete(required, [*system.invariants, *guesses], unknowns)
-    _refuse_contradictions([e for e in system.invariants if e not in equations], system)
+    _refuse_contradictions([e for e in system.invariants if e not in equations], [*fixed, *continuous], system)
     return replace(system, initial_equations=tuple(equations), initial_unknowns=unknowns)
 
 
@@ -57,15 +57,33 @@ def _following(free: tuple[str, ...], bound: Mapping[str, Equation]) -> dict[str
     return {name: equation for name, equation in bound.items() if name in reached}
 
 
-def _refuse_contradictions(dropped: list[Equation], system: EquationSystem) -> None:
-    """Constraints for which fixed start values leave nothing to determine must be true with them."""
+def _refuse_contradictions(dropped: list[Equation], at_start: list[Equation], system: EquationSystem) -> None:
+    """Constraints for which fixed start values and initial equations leave nothing to determine must be true with them,
+    as far as these say it one after another."""
+    values = _said(at_start, system)
+    states = {symbol(name) for name in system.states}
     for equation in dropped:
-        error = value_at_start(equation.residual, system.model.variables)
+        residual = equation.residual.xreplace(values)
+        error = None if residual.free_symbols & states else value_at_start(residual, system.model.variables)
         if error is not None and abs(error) > TOLERANCE:
             raise BuildError(
-                f"{equation.origin}: the fixed start values contradict this equation, by {error:g}: drop fixed=true"
-                " from the one that follows from the others"
+                f"{equation.origin}: the fixed start values contradict this equation, by {error:g}: drop fixed=true, or"
+                " the initial equation, of the one that follows from the others"
             )
+
+
+def _said(equations: list[Equation], system: EquationSystem) -> dict[sympy.Symbol, sympy.Expr]:
+    """The values of the states that equations give by themselves, or once others have one."""
+    states = {symbol(name) for name in system.states}
+    values: dict[sympy.Symbol, sympy.Expr] = {}
+    for _ in equations:
+        for equation in equations:
+            residual = equation.residual.xreplace(values)
+            unknown = [s for s in residual.free_symbols & states if residual.diff(s).is_number]
+            if len(residual.free_symbols & states) == len(unknown) == 1:
+                (state,) = unknown
+                values[state] = -residual.xreplace({state: sympy.Integer(0)}) / residual.diff(state)
+    return values
 
 
 def _split(system: EquationSystem, variables: dict[str, Variable]) -> tuple[dict[str, Assignment], list[Equation]]:

@@ -6,12 +6,13 @@ event_expressions.py.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 
 import numpy as np
 import sympy
 
-from ..ir.functions import power
+from ..ir.functions import no_number, power
 from .values import (
     ONE,
     ZERO,
@@ -28,6 +29,7 @@ from .values import (
     identity,
     matrix_power,
     multiply,
+    quotient,
     skew,
     sum_of,
 )
@@ -50,6 +52,19 @@ SCALAR: Mapping[str, Callable[..., sympy.Expr]] = {
 }
 
 
+def finite(value: Value) -> Value:
+    """The value, with NaN where it is no real number, such as sqrt(-1) or 1/0. SymPy would go on with complex ones.
+
+    It may stand in a branch that is never taken; a run that needs it ends.
+    """
+    return combine(_finite, value)
+
+
+def _finite(scalar: sympy.Expr) -> sympy.Expr:
+    is_fine = not scalar.is_number or (scalar.is_real and math.isfinite(float(scalar)))
+    return scalar if is_fine else no_number()
+
+
 def _same(operation: Callable[[sympy.Expr, sympy.Expr], sympy.Expr]) -> Callable[[Value, Value], Value]:
     """For operands of the same structure, which may be records."""
     return lambda a, b: combine(operation, a, b)
@@ -70,7 +85,7 @@ BINARY: Mapping[str, Callable[[Value, Value], Value]] = {
     "AddElem": lambda a, b: each(lambda x, y: x + y, a, b),
     "SubElem": lambda a, b: each(lambda x, y: x - y, a, b),
     "MulElem": lambda a, b: each(lambda x, y: x * y, a, b),
-    "DivElem": lambda a, b: each(lambda x, y: x / y, a, b),
+    "DivElem": lambda a, b: each(quotient, a, b),
     "ExpElem": lambda a, b: each(power, a, b),
 }
 

@@ -52,7 +52,7 @@ def read_algorithms(sections: Sequence[Node], reader: EventReader) -> tuple[Algo
 
 def read_checks(flat: Node, reader: EventReader) -> tuple[Check, ...]:
     """Assertions among the equations: looked at after each step, no events of their own."""
-    return tuple(_assertion(node, reader) for node in (*flat["assert_equations"], *flat["initial_assert_equations"]))
+    return tuple(reader.check(node) for node in (*flat["assert_equations"], *flat["initial_assert_equations"]))
 
 
 def _targets(nodes: Sequence[Node]) -> Iterator[str]:
@@ -139,7 +139,7 @@ def _statement(node: Node, reader: EventReader, *, event_free: bool) -> Sequence
         values = elements_for(states, reader.read_event_free(body["value"]))
         return [Reinit(s.name, sympy.true, value, origin) for s, value in zip(elements(states), values, strict=True)]
     if tag == "Assert":
-        return [_assertion(body, reader)]
+        return [reader.check(body)]
     if tag == "Terminate":
         return [Check(sympy.true, reader.message(body["message"]), "END", origin)]
     if tag in {"Conditional", "If"}:
@@ -190,14 +190,3 @@ def _loop(
     for value in reader.read(indices[0]["range"]):
         with reader.bound(indices[0]["ident"], value):
             yield from _loop(indices[1:], statements, reader, event_free=event_free)
-
-
-def _assertion(body: Node, reader: EventReader) -> Check:
-    level = body.get("level")
-    is_warning = level is not None and reader.read(level) == 1  # AssertionLevel.warning
-    return Check(
-        sympy.Not(reader.condition_event_free(body["condition"])),
-        reader.message(body["message"]),
-        "WARN" if is_warning else "FAIL",
-        reader.sources.find_place(body),
-    )

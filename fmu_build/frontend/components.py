@@ -12,6 +12,7 @@ from typing import Any
 import sympy
 
 from ..ir.symbols import symbol
+from .builtin import finite
 from .values import Value, array, elements, full
 
 Read = Callable[[Mapping[str, Any]], Value]
@@ -37,7 +38,7 @@ class Components:
         self.structural: set[str] = set()  # what sizes and subscripts follow from
 
     def value(self, name: str) -> Value:
-        """What ``name`` stands for; KeyError where there is no such component."""
+        """What ``name`` stands for; KeyError without such a component, ValueError for a constant without value."""
         if name not in self._values:
             self._values[name] = self._find(name)
         return self._values[name]
@@ -47,6 +48,8 @@ class Components:
         if node is not None and name in self._fixed:
             value = self._read(node["binding"])
             return spread(value, node["dims"]) if node["dims"] else value
+        if node is not None and node["binding"] is None and "Constant" in node["variability"]:
+            raise ValueError(f"constant {name} has no value: give it one")
         if node is not None:
             return _symbols(name, node["dims"])
         if name in self._parts:
@@ -82,7 +85,7 @@ class Components:
                     bound = spread(bound, node["dims"])[tuple(int(i) - 1 for i in index[:-1].split(","))]
                 number = self.number(bound)
                 self._numbers[s] = number if number.is_number else s
-        return expression.xreplace({s: self._numbers[s] for s in expression.free_symbols})
+        return finite(expression.xreplace({s: self._numbers[s] for s in expression.free_symbols}))
 
 
 def element_names(name: str, dims: list[int]) -> list[str]:

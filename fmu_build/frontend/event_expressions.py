@@ -19,7 +19,7 @@ from sympy.logic.boolalg import Boolean
 from ..errors import BuildError
 from ..ir.conditions import compare
 from ..ir.equations import Assignment, EnumerationType, Relation
-from ..ir.events import Message, Sample
+from ..ir.events import Check, Message, Sample
 from ..ir.functions import reach_time, round_down
 from ..ir.symbols import INITIAL, TERMINAL, TIME, Kind, holds, is_true, kind_of, numbered, pre, symbol, truth
 from .expressions import RELATIONS, ExpressionReader
@@ -60,7 +60,8 @@ class Declared:
 
 
 class EventReader(ExpressionReader):
-    """Reads all that an ExpressionReader does, and events. ``samples`` and ``rounded`` collect what it meets."""
+    """Reads all that an ExpressionReader does, and events. ``samples``, ``rounded`` and ``asserted`` collect what
+    it meets."""
 
     def __init__(
         self, sources: Sources, declared: Declared, flat: Mapping[str, Any], fixed: frozenset[str] = frozenset()
@@ -69,6 +70,7 @@ class EventReader(ExpressionReader):
         self.declared = declared
         self.samples: list[Sample] = []
         self.rounded: list[Assignment] = []
+        self.asserted: list[Check] = []  # by functions
         self._texts = {
             name: node["binding"]
             for name, node in flat["variables"].items()
@@ -127,6 +129,29 @@ class EventReader(ExpressionReader):
             return Message(left.format + right.format, (*left.values, *right.values))
         place = self.sources.find_place(node)
         raise BuildError(f"{place}: only texts, String parameters and String(scalar), joined by +, are supported")
+
+    def check(self, node: Mapping[str, Any]) -> Check:
+        """An assertion: looked at after each step, no event of its own."""
+        level = node.get("level")
+        is_warning = level is not None and self.read(level) == 1  # AssertionLevel.warning
+        return Check(
+            sympy.Not(self.condition_event_free(node["condition"])),
+            self.message(node["message"]),
+            "WARN" if is_warning else "FAIL",
+            self.sources.find_place(node),
+        )
+
+    def assertion(self, node: Mapping[str, Any]) -> None:
+        """Keep what a function asserts, if an equation calls it in any case, and at any time."""
+        check = self.check(node)
+        if check.violated == sympy.false:
+            return
+        if not self._shares:
+            raise ValueError(
+                "an assertion in a function that is called under a condition, or elsewhere than in an equation: not"
+                " supported; assert it beside the call"
+            )
+        self.asserted.append(check)
 
     def is_discrete_valued(self, node: Mapping[str, Any]) -> bool:
         """Whether the value is a Boolean, an Integer or an enumeration's."""

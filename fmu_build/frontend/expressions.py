@@ -13,7 +13,7 @@ from ..errors import BuildError
 from ..ir.conditions import compare
 from ..ir.equations import Assignment, Relation
 from ..ir.symbols import der, holds, shared_name, symbol
-from .builtin import ARRAY, BINARY, SCALAR, SIZES
+from .builtin import ARRAY, BINARY, SCALAR, SIZES, finite
 from .choices import CHOICES
 from .components import Components
 from .functions import call
@@ -132,7 +132,7 @@ class ExpressionReader:
         if tag == "Binary" and "Tuple" in body["lhs"]:
             return self._several(body)
         if tag == "Binary" and body["op"] in BINARY:
-            return BINARY[body["op"]](self.read(body["lhs"]), self.read(body["rhs"]))
+            return finite(BINARY[body["op"]](self.read(body["lhs"]), self.read(body["rhs"])))
         raise self._unsupported(node)
 
     def _literal(self, body: Mapping[str, Any]) -> Value:
@@ -234,6 +234,10 @@ class ExpressionReader:
                 return [str(f["name"]) for f in record["fields"]]
         raise ValueError(f"{name}(): not supported; write a function with an algorithm in Modelica")
 
+    def assertion(self, node: Mapping[str, Any]) -> None:
+        """Keep what a function asserts."""
+        raise NotImplementedError
+
     def _several(self, body: Mapping[str, Any]) -> Value:
         """``(a, b) = f(x)``, as the residuals a - y1, b - y2."""
         return tuple(BINARY["Sub"](target, value) for target, value in self.parts(body))
@@ -259,7 +263,7 @@ class ExpressionReader:
         if (first := SIZES.get(function)) is not None:
             values[first:] = [self.components.structure(size) for size in values[first:]]
         if function in SCALAR:
-            return each(SCALAR[function], *values)
+            return finite(each(SCALAR[function], *values))
         if function in ARRAY:
             return ARRAY[function](*values)
         text, origin = self.sources.text(body["span"]), self.sources.find_place(body)

@@ -103,7 +103,7 @@ def _with_equations(model: FlatModel, flat: Node, reader: EventReader) -> FlatMo
         discrete=tuple(discrete),
         whens=read_whens(flat, reader),
         algorithms=read_algorithms(flat["algorithms"], reader),
-        checks=read_checks(flat, reader),
+        checks=(*read_checks(flat, reader), *reader.asserted),
         initial_algorithms=read_algorithms(flat["initial_algorithms"], reader),
         initial_equations=tuple(
             Equation(scalar, _equation_origin(node, reader.sources))

@@ -65,6 +65,8 @@ def run(reader: Reader, statements: Sequence[Node], names: Names) -> None:
             _loop(reader, body["indices"], body["equations"], names)
         elif tag == "While" and not _returns(body):
             _repeat(reader, body, names)
+        elif tag == "Assert":
+            reader.assertion(body)
         elif tag == "Return":
             return
         elif tag != "Empty":

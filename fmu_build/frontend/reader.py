@@ -27,6 +27,9 @@ class Reader(Protocol):
     def outputs(self, body: Mapping[str, Any]) -> tuple[Value, ...]:
         """All outputs of a function call."""
 
+    def assertion(self, node: Mapping[str, Any]) -> None:
+        """Keep what a function asserts."""
+
     def share(self, name: str, value: Value) -> Value:
         """The value, of which large expressions are replaced by variables that equal them."""
 

@@ -14,6 +14,8 @@ import numpy as np
 import sympy
 from numpy.typing import NDArray
 
+from ..ir.functions import no_number
+
 Array = NDArray[np.object_]
 Value = Any  # sympy.Expr, Array, dict[str, Value] or tuple[Value, ...]
 ZERO, ONE = sympy.Integer(0), sympy.Integer(1)
@@ -70,7 +72,12 @@ def divide(a: Value, b: Value) -> Value:
     """``a/b``, b a scalar"""
     if isinstance(b, np.ndarray):
         raise ValueError("division by an array: write ./ for element by element")
-    return each(lambda x: x / b, a)
+    return each(lambda x: quotient(x, b), a)
+
+
+def quotient(a: sympy.Expr, b: sympy.Expr) -> sympy.Expr:
+    """``a/b`` of scalars; NaN where b is the number zero."""
+    return no_number() if b.is_zero else a / b
 
 
 def matrix_power(a: Array, b: Value) -> Value:

@@ -28,7 +28,7 @@ class power(sympy.Function):  # type: ignore[misc]
 
 
 class no_number(sympy.Function):  # type: ignore[misc]
-    """What there is where an array has no element: NaN. SymPy's own NaN refuses to be compared."""
+    """What there is where an array has no element or sqrt(-1) no value: NaN. SymPy's own NaN refuses to be compared."""
 
     nargs = 0
     is_real = True

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from fmu_build.codegen.text import comment, identifiers, string
+from fmu_build.codegen.text import comment, function, identifiers, string
 from fmu_build.fmu.compile import compiler
 
 NASTY = [
@@ -98,3 +98,9 @@ int main(void)
 @pytest.mark.parametrize("text", ["k */ double shift; /* x", "*/*/", "/*/", "**//", "a\n*/\nint x;"])
 def test_a_comment_ends_where_it_should(text: str) -> None:
     assert comment(text).count("*/") == 1 and comment(text).endswith("*/") and "\n" not in comment(text)
+
+
+@pytest.mark.parametrize("statement", ['say("v is 1");', "/* of v */", "w->v = 1.0;", r'say("\" v");'])
+def test_a_parameter_that_is_but_mentioned_is_unused(statement: str) -> None:
+    assert "(void)v;" in function("void f(const Variables *v, Variables *w)", [statement])
+    assert "(void)v;" not in function("void f(const Variables *v, Variables *w)", [statement, "g(v);"])

@@ -8,6 +8,8 @@ from collections.abc import Callable
 import fmpy
 import pytest
 
+from fmu_build.errors import BuildError
+from fmu_build.ir.models import SortedModel
 from tests.fmu_build.conftest import Build
 
 # What determines the parameter a, with declarations and equations of its own, and the value of a by that of q.
@@ -106,3 +108,43 @@ def test_what_follows_from_a_parameter_that_initial_equations_determine(fmi: int
             if abs(last[name] - value(q)) > 1e-6 + 1e-6 * abs(value(q))
         }
         assert wrong == {}
+
+
+PENDULUM = """
+model M
+  parameter Real L = 0.5, angle = 0.3;
+  Real x({}), y({}), v(start=0, fixed=true), w(start=0, fixed=true), F;
+{}equation
+  der(x) = v;
+  der(y) = w;
+  der(v) = -x*F;
+  der(w) = -y*F - 9.81;
+  x^2 + y^2 = L^2;
+end M;
+"""
+LEVEL = ("start=0.5, fixed=true", "start=0, fixed=true")
+STARTS = {
+    "fixed": (*LEVEL, "", 0),
+    "fixed, contradicting": ("start=0.4, fixed=true", "start=0, fixed=true", "", 0.16 - 0.25),
+    "equations": ("start=0", "start=0", "x = L; y = 0;", 0),
+    "equations, contradicting": ("start=0.5", "start=0", "x = L/2; y = 0;", 0.0625 - 0.25),
+    "equations, one after another": ("", "", "y = -x/2; x = 2*L/sqrt(5);", 0),
+    "equations, one after another, contradicting": ("", "", "y = -x/2; 2*x = 2*L;", 0.0625),
+    "an equation beside a fixed one": ("start=0.3, fixed=true", "", "y + x + 0.1 = 0;", 0),
+    "an equation beside a fixed one, contradicting": ("start=0.3, fixed=true", "", "y = x;", 0.18 - 0.25),
+    "of an angle": ("", "", "x = L*sin(angle); y = -L*cos(angle);", 0),
+}
+
+
+@pytest.mark.parametrize("case", STARTS)
+def test_a_constraint_that_nothing_is_left_of_is_checked(case: str, sorted_model: Callable[[str], SortedModel]) -> None:
+    x, y, equations, error = STARTS[case]
+    text = PENDULUM.replace("{}", x, 1).replace("{}", y, 1)
+    text = text.replace("{}", f"initial equation\n  {equations}\n" if equations else "", 1)
+    if error == 0:
+        sorted_model(text)
+    else:
+        with pytest.raises(
+            BuildError, match=rf"M\.mo:\d+: the fixed start values contradict this equation, by {error:g}:"
+        ):
+            sorted_model(text)

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Callable
 
+import fmpy
+import pytest
 import sympy
 
+from fmu_build.errors import BuildError
 from fmu_build.ir.equations import Assignment
 from fmu_build.ir.models import SortedModel
 from fmu_build.ir.symbols import symbol
+from tests.fmu_build.conftest import Build
 
 Sorted = Callable[[str], SortedModel]
 
@@ -35,3 +40,39 @@ def test_defaults_may_read_what_is_declared_elsewhere(sorted_model: Sorted) -> N
     expected = {f"x{i}": TIME for i in range(len(orders))} | {f"w{i}": 3 * TIME + 2 for i in range(len(orders))}
     assert found == expected
     assert len(orders) == 6
+
+
+ASSERTING = """
+function root
+  input Real x, least;
+  output Real y;
+algorithm
+  assert(x >= least, "no root of " + String(x));
+  y := sqrt(x);
+end root;
+model M
+  Real x(start=1, fixed=true);
+  Real y;
+equation
+  der(x) = -1;
+  y = {};
+end M;
+"""
+
+
+def test_what_a_function_asserts_counts_at_any_time(built: Build) -> None:
+    said: list[str] = []
+    with pytest.raises(fmpy.fmi1.FMICallException):
+        text = ASSERTING.replace("{}", "1 + root(x, 0.5)")
+        fmpy.simulate_fmu(str(built(text, 2)), stop_time=1, logger=lambda *message: said.append(str(message[-1])))
+    assert re.search(r"no root of 0\.\d+ \(t = 0\.5", said[-1])
+
+
+@pytest.mark.parametrize("value", ["if x > 0.5 then root(x, 0.5) else 0", "if x > 0.5 then 0 else root(1 + x, 0.5)"])
+def test_it_is_refused_where_it_does_not_count_at_any_time(value: str, sorted_model: Sorted) -> None:
+    with pytest.raises(BuildError, match=r"M\.mo:14: an assertion in a function that is called under a condition"):
+        sorted_model(ASSERTING.replace("{}", value))
+
+
+def test_it_is_none_where_it_is_known_to_hold(sorted_model: Sorted) -> None:
+    assert sorted_model(ASSERTING.replace("{}", "if x > 0.5 then root(2, 0.5) else 0")).schedule.checks == ()
