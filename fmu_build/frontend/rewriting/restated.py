@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from .algorithms import as_equations, first_section
+from .clocked_bindings import with_clocked_equations
 from .lifted import with_parts_lifted
 from .when_equations import with_whens_restated
 
 
 def restated(text: str) -> str:
     """The text with algorithm sections as equations, simpler when-clauses, and parts of expressions as variables."""
-    return with_parts_lifted(with_whens_restated(as_equations(text)))
+    return with_clocked_equations(with_parts_lifted(with_whens_restated(as_equations(text))))
 
 
 def algorithm_left(text: str) -> int | None:
