@@ -85,8 +85,8 @@ class _Clocks:
         for name, node in flat["variables"].items():
             if node["binding"] is not None and name not in self._still:
                 self._add(_equation(name, node))
-        for node in flat["equations"]:
-            self._add(node)
+        for index, node in enumerate(flat["equations"]):
+            self._add({**node, "index": index})
         self._partitions = self._connected()
         self._known: dict[str, Clock] = {}
 
@@ -203,7 +203,12 @@ class _Clocks:
         for name in variables.keys() & self._partitions.keys():
             if self._of_partition(name) is not None:
                 variables[name] = {**variables[name], "variability": "Discrete"}
-        return {**self._flat, "variables": variables, "equations": equations, "when_chains": chains}
+        loops = [
+            {**loop, "first_equation_index": sum(node["index"] < loop["first_equation_index"] for node in equations)}
+            for loop in self._flat["structured_equations"]
+        ]
+        left = {"variables": variables, "equations": equations, "structured_equations": loops, "when_chains": chains}
+        return {**self._flat, **left}
 
     def _plain_chain(self, chain: Node) -> Node:
         condition = chain["first"]["condition"]

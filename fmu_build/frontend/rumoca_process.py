@@ -23,13 +23,18 @@ from .rewriting.restated import algorithm_left, restated
 Request = Mapping[str, Any]
 
 ALGORITHM = "unsupported model algorithm"
-ALGORITHM_REMEDY = "what is assigned twice, or not in every branch, needs two names; or write the section as a function"
+ALGORITHM_REMEDY = "give each variable a value in every branch, loops numbers as bounds; or write the section, or its while, as a function"
 # What rumoca says, what shows the place in the source, and what to do.
 REMEDIES = (
     (
         "duplicate reinitialization owner",
         r"\breinit\s*\(\s*([\w.]+)(?=.*?\breinit\s*\(\s*\1\s*,)",
         "two when-clauses reinit {0}, and which counts if both become true? Make them branches of one, by elsewhen",
+    ),
+    (
+        "runtime operator `Clock`: requires parameter-evaluable Integer conversion arguments",
+        r"\bClock\s*\([^;]*\bsolverMethod\b",
+        "a clock takes no solverMethod: write the method out, x = previous(x) + interval(x)*previous(der_x)",
     ),
     (
         "unbalanced model",

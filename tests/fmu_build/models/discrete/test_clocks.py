@@ -135,7 +135,7 @@ def test_a_sampled_controller(way: Way) -> None:
 @pytest.mark.parametrize(
     ("clock", "said"),
     [
-        ('Clock(Clock(0.1), solverMethod="ExplicitEuler")', "Clock"),
+        ('Clock(Clock(0.1), solverMethod="ExplicitEuler")', "takes no solverMethod: write the method out"),
         ("Clock(k, 10)", "Clock"),
     ],
 )
