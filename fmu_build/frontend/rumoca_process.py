@@ -23,7 +23,7 @@ from .rewriting.restated import algorithm_left, restated
 Request = Mapping[str, Any]
 
 ALGORITHM = "unsupported model algorithm"
-ALGORITHM_REMEDY = "give each variable a value in every branch, loops numbers as bounds; or write the section, or its while, as a function"
+ALGORITHM_REMEDY = "give each variable a value in every branch, and loops numbers as bounds; or write a function"
 # What rumoca says, what shows the place in the source, and what to do.
 REMEDIES = (
     (

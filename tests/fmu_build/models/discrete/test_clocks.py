@@ -91,6 +91,13 @@ CASES: dict[str, Case] = {
         "equation when Clock(0.1) then x = P*previous(x); end when; y = hold(x[1]);",
         {"y": lambda t: 1 - 0.5 ** ticks(t, 0.1)},
     ),
+    "an enumeration inside and outside": (
+        "type E = enumeration(a, b); Clock c = Clock(0.1); E e(start=E.a); Integer k(start=0); output Integer y;"
+        " E f(start=E.b, fixed=true);",
+        "equation when c then e = if previous(e) == E.a then E.b else E.a; k = if e == E.b then 1 else 2; end when;"
+        " when time > 0.52 then f = E.a; end when; y = hold(k) + (if f == E.a then 10 else 0);",
+        {"y": lambda t: 2 - ticks(t, 0.1) % 2 + 10 * (t > 0.52)},
+    ),
     "blocks that know no clock": (
         "block Sum input Real u; output Real y(start=0); equation y = previous(y) + u; end Sum;"
         " block Sampler input Real u; output Real y; Clock c = Clock(0.1); equation y = sample(u, c); end Sampler;"
