@@ -31,7 +31,7 @@ from .annotations import (
 )
 from .audit import refuse_lost_modifiers
 from .clauses import assigned_names, read_algorithms, read_checks, read_whens
-from .clocks import without_clocks
+from .clocked_equations import without_clocks
 from .components import elements_for
 from .declarations import Node, declared_names, fixed_names, is_text, variables_of
 from .event_expressions import EventReader, enumeration_types

@@ -27,7 +27,7 @@ Files = list[tuple[int, str, str]]  # number, name and text of each
 
 MISSING = re.compile("unresolved|not found|does not exist|resolve/parse failed")
 ALGORITHM = "unsupported model algorithm"
-ALGORITHM_REMEDY = "what is assigned twice, or not in every branch, needs two names; or write the section as a function"
+ALGORITHM_REMEDY = "give each variable a value in every branch, and loops numbers as bounds; or write a function"
 Rewrite = Callable[[str], str]
 # What rumoca says, and what says the same in a way that it takes; the last, whatever it says.
 REWRITES: Sequence[tuple[str, Rewrite]] = (("unbalanced model", with_calls_in_sums), ("", restated))
@@ -37,6 +37,11 @@ REMEDIES = (
         "duplicate reinitialization owner",
         r"\breinit\s*\(\s*([\w.]+)(?=.*?\breinit\s*\(\s*\1\s*,)",
         "two when-clauses reinit {0}, and which counts if both become true? Make them branches of one, by elsewhen",
+    ),
+    (
+        "runtime operator `Clock`: requires parameter-evaluable Integer conversion arguments",
+        r"\bClock\s*\([^;]*\bsolverMethod\b",
+        "a clock takes no solverMethod: write the method out, x = previous(x) + interval(x)*previous(der_x)",
     ),
     (
         "unbalanced model",

@@ -165,9 +165,11 @@ class _Section:
         is_last = base not in later
         if reference in values and not (is_last and function == "der"):
             return reference if is_last and base not in self._inlined else f"({values[reference]})"
-        if is_last and (base in self._settled or any(base_of(key) == base for key in values)):
-            return reference
-        return self._initial(reference)
+        if base not in self._settled and all(base_of(key) != base for key in values):
+            return self._initial(reference)
+        if not is_last:
+            raise NotSaidOtherwiseError
+        return reference
 
     def _initial(self, reference: str) -> str:
         """The value before the section: that before the event, of what is discrete."""
@@ -180,7 +182,11 @@ class _Section:
 
     def _assign(self, statement: Assigned, values: Values, later: Set[str]) -> None:
         target = self._target(statement.target, values)
-        values[target] = self._read(statement.value, values, later | {base_of(target)})
+        base = base_of(target)
+        others = [key for key in values if base_of(key) == base and key != target]
+        if base in self._settled or (others and base in {target, *others}):  # as a whole, and in elements
+            raise NotSaidOtherwiseError
+        values[target] = self._read(statement.value, values, later | {base})
         self._lines[target] = self._line(statement.target[0])
 
     def _choose(self, statement: Branches, values: Values, later: Set[str], guards: tuple[str, ...]) -> None:

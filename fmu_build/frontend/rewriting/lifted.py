@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from .tokens import ClassBody, Token, arguments, classes_of, closing, declared_names, is_reference, tokens_of, written
+from .tokens import ClassBody, Token, arguments, classes_of, closing, declared_clocks, is_reference, tokens_of, written
 from .when_words import name_of
 
 _RELATIONS = frozenset(("<", ">", "<=", ">=", "==", "<>"))
@@ -58,7 +58,7 @@ def _is_in(inner: tuple[int, int], outer: tuple[int, int]) -> bool:
 
 def _parts(owner: ClassBody) -> Iterator[_Part]:
     tokens = owner.tokens
-    clocks = _declared_clocks(tokens)
+    clocks = declared_clocks(tokens)
     depth = 0  # of loops
     for i, token in enumerate(tokens):
         before = tokens[i - 1].text if i else ""
@@ -85,13 +85,3 @@ def _is_in_loop(tokens: Sequence[Token], i: int, depth: int) -> bool:
     return (depth > 0 and not any(t.text == "for" for t in tokens[first:last])) or any(
         t.text == "for" and tokens[k - 1].text != "end" for k, t in enumerate(tokens[first:last], start=first)
     )
-
-
-def _declared_clocks(tokens: Sequence[Token]) -> set[str]:
-    """The variables of type Clock that a class declares."""
-    found: set[str] = set()
-    for i, token in enumerate(tokens[:-1]):
-        if token.text == "Clock" and tokens[i + 1].is_name:
-            last = next((k for k in range(i, len(tokens)) if tokens[k].text == ";"), len(tokens))
-            found |= set(declared_names(tokens[i + 1 : last]))
-    return found

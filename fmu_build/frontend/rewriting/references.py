@@ -12,7 +12,12 @@ _WORDS = frozenset(("if", "then", "elseif", "else", "and", "or", "not", "for", "
 
 def base_of(reference: str) -> str:
     """A reference without its last subscripts."""
-    return reference[: reference.rindex("[")].rstrip() if reference.endswith("]") else reference
+    depth = 0
+    for k in range(len(reference) - 1, -1, -1) if reference.endswith("]") else ():
+        depth += (reference[k] == "]") - (reference[k] == "[")
+        if depth == 0:
+            return reference[:k].rstrip()
+    return reference
 
 
 def replaced(tokens: Sequence[Token], value: Callable[[str, str], str]) -> str:

@@ -113,6 +113,16 @@ def declared_names(tokens: Sequence[Token]) -> list[str]:
     return [names[0].text for names in arguments(tokens) if names]
 
 
+def declared_clocks(tokens: Sequence[Token]) -> set[str]:
+    """The variables of type Clock that a class declares."""
+    found: set[str] = set()
+    for i, token in enumerate(tokens[:-1]):
+        if token.text == "Clock" and tokens[i + 1].is_name:
+            last = next((k for k in range(i, len(tokens)) if tokens[k].text == ";"), len(tokens))
+            found |= set(declared_names(tokens[i + 1 : last]))
+    return found
+
+
 def closing(tokens: Sequence[Token], i: int) -> int:
     """Where the bracket closes that opens at ``i``."""
     depth = 0

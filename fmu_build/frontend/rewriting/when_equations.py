@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from .gathered import gathered
 from .statements import (
     Assigned,
     Branches,
@@ -26,6 +27,7 @@ from .tokens import (
     arguments,
     classes_of,
     closing,
+    declared_clocks,
     declared_names,
     discrete_types,
     placed,
@@ -84,11 +86,17 @@ def _changes(text: str, owner: ClassBody, when: Whens, targets: set[str]) -> Ite
         return
     if len(when.branches) > 1:
         raise NotSaidOtherwiseError
+    first, last = (text.count("\n", 0, token.start) for token in (when.tokens[0], when.tokens[-1]))
+    condition = when.branches[0][0] or ()
+    if {"Clock", *declared_clocks(owner.tokens)} & {token.text for token in condition}:
+        whole = [(text.count("\n", 0, start), words) for start, words in gathered(statements)]
+        inside = placed([(first, f"when {written(condition)} then"), *whole, (last, "end when;")], first, last)
+        yield when.tokens[0].start, when.tokens[-1].end, inside
+        return
     conditions: dict[str, str] = {}
-    for part in vector_parts(when.branches[0][0] or ()):
+    for part in vector_parts(condition):
         named_condition(part, owner, conditions)
     pieces = [(text.count("\n", 0, start), words) for start, words in _words(statements, conditions)]
-    first, last = (text.count("\n", 0, token.start) for token in (when.tokens[0], when.tokens[-1]))
     yield when.tokens[0].start, when.tokens[-1].end, placed(pieces, first, last)
     declared = "".join(f" Boolean {name} = {value};" for name, value in conditions.items() if value)
     if declared:
@@ -148,15 +156,12 @@ def _first(statement: Statement) -> Token:
 
 def _without_clocks(when: Whens) -> Iterator[Change]:
     for condition, _ in when.branches:
-        for k, token in enumerate(condition or ()):
-            if (
-                condition
-                and token.text == "sample"
-                and len(arguments(condition[k + 2 : closing(condition, k + 1)])) == 2
-            ):
-                last = condition[closing(condition, k + 1)]
+        tokens = condition or ()
+        for k, token in enumerate(tokens):
+            last = closing(tokens, k + 1) if token.text == "sample" else k
+            if len(arguments(tokens[k + 2 : last])) == 2:
                 yield token.start, token.start, "("
-                yield last.end, last.end, " or false)"
+                yield tokens[last].end, tokens[last].end, " or false)"
 
 
 def _discrete(name: str, owner: ClassBody, targets: set[str]) -> Change:
@@ -164,10 +169,11 @@ def _discrete(name: str, owner: ClassBody, targets: set[str]) -> Change:
     declaration: list[Token] = []
     for token in owner.tokens:
         if token.text == ";":
-            k = next((k for k, t in enumerate(declaration) if t.text == "Real"), None)
-            names = declared_names(declaration[k + 1 :]) if k is not None else []
+            k = next((k for k, t in enumerate(declaration) if t.text == "Real"), -1)
+            names = declared_names(declaration[k + 1 :]) if k >= 0 else []
             if name in names and set(names) <= targets:
-                return declaration[k or 0].start, declaration[k or 0].start, "discrete "
+                k -= declaration[k - 1].text in {"input", "output"}
+                return declaration[k].start, declaration[k].start, "discrete "
             declaration = []
         else:
             declaration.append(token)

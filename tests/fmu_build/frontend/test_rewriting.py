@@ -35,6 +35,10 @@ BODIES = {
         "",
         "y [ 1 ] = if edge(b) then u else pre(y [ 1 ]);\n when {b} then n = pre ( n ) + 1; end when;\n",
     ),
+    "when Clock(0.1) then for i in 1:2 loop y[i] = previous(y[i]) + i; end for; n = 1; end when;": (
+        "protected Clock 'M: Clock ( 0.1 )' = Clock ( 0.1 ); public",
+        "when 'M: Clock ( 0.1 )' then y = {previous ( y[1] ) + 1, previous ( y[2] ) + 2}; n = 1; end when;",
+    ),
     "when b then (s, n) = f(u); end when;": (
         "",
         "algorithm when {b} then ( s , n ) := f ( u ); end when; equation",
@@ -71,10 +75,20 @@ def test_what_stays(body: str) -> None:
     assert restated(text) == text
 
 
+def test_declarations_with_a_clock_become_equations() -> None:
+    declared = 'Real s(start=1) = previous(s) + 1 "counts", t = 2*sample(u, c);'
+    text = f'model M "it"\n  {declared}\n  Clock c = Clock(1);\nend M;\n'
+    assert restated(text) == (
+        'model M "it"\n  protected Real \'M: sample ( u , c )\' ; public Real s(start=1)  "counts",'
+        " t = 2*'M: sample ( u , c )';\n  Clock c = Clock(1);"
+        " equation 'M: sample ( u , c )' = sample ( u , c ); s = previous ( s ) + 1; \nend M;\n"
+    )
+
+
 def test_what_is_assigned_element_by_element_becomes_discrete() -> None:
     body = "when b then z[1] = u; end when;"
-    text = AROUND.format(extra="Real z[3](each start=1) = x; ", body=body)
-    assert "discrete Real z[3]" in restated(text)
+    text = AROUND.format(extra='"it" output Real z[3](each start=1) = x; ', body=body)
+    assert '"it" discrete output Real z[3]' in restated(text)
     shared = AROUND.format(extra="Real x, z[3];", body=body)
     assert restated(shared) == shared
 

@@ -75,6 +75,29 @@ CASES: dict[str, Case] = {
         "equation der(x) = 1; when Clock(x > 0.52) then n = previous(n) + sample(x); end when;",
         {"n": lambda t: 0.52 * (t > 0.52)},
     ),
+    "declarations, and values from before": (
+        "Real u = sample(time, Clock(0.1)); Real u1(start=0) = previous(u); Real m; output Real y;",
+        "equation m = (u + u1 + previous(u1))/3; y = hold(m);",
+        {"y": lambda t: sum(0.1 * max(0, ticks(t, 0.1) - 1 - i) for i in range(3)) / 3},
+    ),
+    "elements": (
+        "Real b[4](each start=0); output Real y;",
+        "equation when Clock(0.1) then b[1] = sample(time);"
+        " for i in 2:4 loop b[i] = previous(b[i - 1]); end for; end when; y = hold(b[4]);",
+        {"y": lambda t: 0.1 * max(0, ticks(t, 0.1) - 4)},
+    ),
+    "a matrix": (
+        "parameter Real P[2, 2] = [0.5, 0.5; 0, 1]; Real x[2](start={0, 1}); output Real y;",
+        "equation when Clock(0.1) then x = P*previous(x); end when; y = hold(x[1]);",
+        {"y": lambda t: 1 - 0.5 ** ticks(t, 0.1)},
+    ),
+    "an enumeration inside and outside": (
+        "type E = enumeration(a, b); Clock c = Clock(0.1); E e(start=E.a); Integer k(start=0); output Integer y;"
+        " E f(start=E.b, fixed=true);",
+        "equation when c then e = if previous(e) == E.a then E.b else E.a; k = if e == E.b then 1 else 2; end when;"
+        " when time > 0.52 then f = E.a; end when; y = hold(k) + (if f == E.a then 10 else 0);",
+        {"y": lambda t: 2 - ticks(t, 0.1) % 2 + 10 * (t > 0.52)},
+    ),
     "blocks that know no clock": (
         "block Sum input Real u; output Real y(start=0); equation y = previous(y) + u; end Sum;"
         " block Sampler input Real u; output Real y; Clock c = Clock(0.1); equation y = sample(u, c); end Sampler;"
@@ -119,7 +142,7 @@ def test_a_sampled_controller(way: Way) -> None:
 @pytest.mark.parametrize(
     ("clock", "said"),
     [
-        ('Clock(Clock(0.1), solverMethod="ExplicitEuler")', "Clock"),
+        ('Clock(Clock(0.1), solverMethod="ExplicitEuler")', "takes no solverMethod: write the method out"),
         ("Clock(k, 10)", "Clock"),
     ],
 )
