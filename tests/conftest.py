@@ -62,12 +62,6 @@ def pair_fmus() -> dict[int, dict[str, Path]]:
 
 
 @pytest.fixture(scope="session")
-def hitch_fmus() -> dict[int, Path]:
-    """Hitch.fmu by version of FMI."""
-    return {version: kept_fmus("Systems.Hitch", fmi=version)["Hitch"] for version in (2, 3)}
-
-
-@pytest.fixture(scope="session")
 def hitch_fmu() -> Path:
     return kept_fmus("Systems.Hitch", fmi=2)["Hitch"]
 

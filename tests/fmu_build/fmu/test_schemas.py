@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
+from tests.kept import kept_fmus
+
 SCHEMAS = Path(__file__).parents[2] / "schemas"
 FILES = {
     2: {"modelDescription.xml": "fmi2/fmi2ModelDescription.xsd"},
@@ -20,12 +22,12 @@ FILES = {
 
 
 @pytest.fixture(scope="module")
-def units(
-    car_trailer_fmus: dict[int, Path], pair_fmus: dict[int, dict[str, Path]], hitch_fmus: dict[int, Path]
-) -> dict[tuple[str, int], Path]:
-    others = {"CarTrailer": car_trailer_fmus, "Hitch": hitch_fmus}
-    alone = {(name, fmi): path for name, fmus in others.items() for fmi, path in fmus.items()}
-    return alone | {(name, fmi): path for fmi, fmus in pair_fmus.items() for name, path in fmus.items()}
+def units(car_trailer_fmus: dict[int, Path], pair_fmus: dict[int, dict[str, Path]]) -> dict[tuple[str, int], Path]:
+    return {
+        (name, fmi): path
+        for fmi in (2, 3)
+        for name, path in (pair_fmus[fmi] | kept_fmus("Systems.Hitch", fmi=fmi)).items()
+    } | {("CarTrailer", fmi): path for fmi, path in car_trailer_fmus.items()}
 
 
 @pytest.mark.full

@@ -10,7 +10,7 @@ import numpy as np
 from overrun_hitch.parameters import Parameters
 from tests.unit import Unit
 
-FINEST = 5e-4  # s: eight steps of it to the time of the wheels at 40 m/s
+FINEST = 1e-3  # s: a quarter of the time of the wheels at 40 m/s
 AGREED = 1e-10  # m/s
 HELD = {1.0: "", 2.0: "_mean", 3.0: "_hold"}  # applied_force: what is appended to F_hitch and trailer_brake_torque
 

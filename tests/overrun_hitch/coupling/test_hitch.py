@@ -65,8 +65,8 @@ def owed(trace: Trace) -> np.ndarray:
     return np.asarray(missing / np.abs(np.diff(trace.transmitted, axis=0)).max(axis=0))
 
 
-@pytest.mark.parametrize("H", sampled(ASKED, {0.005, 0.01}))
-@pytest.mark.parametrize("C", [100.0, 500.0])
+@pytest.mark.parametrize("H", sampled(ASKED, {0.005}))
+@pytest.mark.parametrize("C", sampled([100.0, 500.0], {500.0}))
 def test_growth_momentum_and_energy(hitch: Unit, exact: dict[float, float], C: float, H: float) -> None:
     """Under Jacobi, with force and torque to hold; with and without the masses told.
 
@@ -86,20 +86,21 @@ def test_growth_momentum_and_energy(hitch: Unit, exact: dict[float, float], C: f
 
 
 @pytest.mark.parametrize("H", sampled([0.001, 0.005], {0.005}))
-def test_plain_exchange_is_late_by_the_closed_form(hitch: Unit, exact: dict[float, float], H: float) -> None:
-    """The warning: five times as late as the pair of Trailer and Car. And the unit tells the energy of it to 2 %."""
+@pytest.mark.parametrize("C", sampled([100.0, 500.0], {500.0}))
+def test_plain_exchange_is_late_by_the_closed_form(hitch: Unit, exact: dict[float, float], C: float, H: float) -> None:
+    """The warning: twenty times as late as the pair of Trailer and Car. And the unit tells the energy of it to 2 %."""
     p = CASES["ii"]
     front, rear = masses(p).values()
     expected = 0.5 * H * (p.k / front + (p.k + p.r / p.R_t) / rear)
-    for C in exact:
-        trace = vibration(hitch, C, H, **PLAIN)
-        error = growth(trace) - exact[C]
-        print(f"C = {C:g}, {1e3 * H:g} ms: {error:.4f} 1/s, closed form {expected:.4f}")
-        assert error == pytest.approx(expected, rel=0.03)
-        told, created = trace.told[1:][20:], trace.created[:-1][20:]
-        assert np.abs(told - created).max() < 0.02 * np.ptp(created)
+    trace = vibration(hitch, C, H, **PLAIN)
+    error = growth(trace) - exact[C]
+    print(f"C = {C:g}, {1e3 * H:g} ms: {error:.4f} 1/s, closed form {expected:.4f}")
+    assert error == pytest.approx(expected, rel=0.03)
+    told, created = trace.told[1:][20:], trace.created[:-1][20:]
+    assert np.abs(told - created).max() < 0.02 * np.ptp(created)
 
 
+@pytest.mark.full
 def test_a_master_that_hands_values_on_late(hitch: Unit, exact: dict[float, float]) -> None:
     """By one more exchange each way: that makes T three steps with values held, and two with those to hold."""
     start, torque = gentle_braking(CASES["ii"], V)
@@ -114,6 +115,7 @@ def test_a_master_that_hands_values_on_late(hitch: Unit, exact: dict[float, floa
     assert hold == pytest.approx(expected / 1.5, rel=0.05)
 
 
+@pytest.mark.full
 def test_the_energy_of_a_hard_brake(hitch: Unit) -> None:
     """Figure 8, 5 ms: what the unit tells is right to 2 % with values held, and to that much of it in any case."""
     scenario = FIGURES["8"]
@@ -130,6 +132,7 @@ def test_the_energy_of_a_hard_brake(hitch: Unit) -> None:
     assert made["masses"][1] < 0.2 * made["hold"][1]
 
 
+@pytest.mark.full
 def test_the_gap_is_followed_under_way(hitch: Unit, exact: dict[float, float]) -> None:
     """The growth rate stays, and the unit's compression moves by H / (2 T_gap) less than the gap does."""
     T, H = 2.0, 0.01
@@ -153,18 +156,56 @@ def peaks(hitch: Unit, whole: HitchUnit, figure: str, H: float, **settings: floa
     return float(error)
 
 
-def test_stop_and_clearance(hitch: Unit, whole: HitchUnit) -> None:
-    """Asked for: 2 % with eps = 0.1, 5 % at the stop of 548 000 N/m with 5 ms. What the masses are good for: 10 ms."""
+STOPS = {  # figure, step in s, whether the masses are told: bound
+    ("6a", 0.005, True): 1e-3,
+    ("6a", 0.005, False): 5e-3,
+    ("6a", 0.01, True): 0.01,
+    ("10", 0.005, True): 1e-3,
+    ("10", 0.01, False): 1e-3,
+    ("10", 0.01, True): 1e-3,
+}
+
+
+@pytest.mark.parametrize("case", sampled(STOPS, {("6a", 0.005, True)}), ids=str)
+def test_stop_and_clearance(hitch: Unit, whole: HitchUnit, case: tuple[str, float, bool]) -> None:
+    """Asked for: 2 % with eps = 0.1, 5 % at the stop of 548 000 N/m with 5 ms."""
+    figure, H, told = case
+    assert peaks(hitch, whole, figure, H, **(masses(CASES["ii"]) if told else {})) < STOPS[case]
+
+
+@pytest.mark.full
+def test_what_the_masses_are_good_for(hitch: Unit, whole: HitchUnit) -> None:
+    """The stop at 10 ms; and what it costs to be wrong by a factor of two."""
     told = masses(CASES["ii"])
-    assert peaks(hitch, whole, "10", 0.01) < 1e-3
-    assert peaks(hitch, whole, "10", 0.01, **told) < 1e-3
-    assert peaks(hitch, whole, "6a", 0.005) < 5e-3
-    assert peaks(hitch, whole, "6a", 0.005, **told) < 1e-3
-    assert peaks(hitch, whole, "6a", 0.01, **told) < 0.01 < peaks(hitch, whole, "6a", 0.01)
+    assert peaks(hitch, whole, "6a", 0.01) > 5.0 * peaks(hitch, whole, "6a", 0.01, **told)
+    for factor in (0.5, 2.0):
+        wrong = {name: factor * mass for name, mass in told.items()}
+        assert peaks(hitch, whole, "6a", 0.005, **wrong) < 3e-3
+        assert peaks(hitch, whole, "6a", 0.01, **wrong) < 0.2
     assert peaks(hitch, whole, "10", 0.005, **PLAIN) > 0.05
 
 
-@pytest.mark.parametrize("order", ["hitch first", "iterated"])
+DEVICES = {
+    "friction": {"F_f": 100.0},
+    "a buffer": {"travel": 0.03},
+    "damper that only pushes": {"F_pull_max": 0.0, "eps": 0.03},
+    "all at once": {"tau_b": 0.02, "F_f": 100.0, "rebound": 2.0, "eps": 0.01, "F_0": 100.0, "travel": 0.05},
+}
+
+
+@pytest.mark.parametrize("device", sampled(DEVICES, {"all at once"}))
+def test_devices_as_sold(hitch: Unit, whole: HitchUnit, device: str) -> None:
+    """Figure 8 with what drawbars have beside spring and damper, 5 ms: compression within 0.5 % of its range."""
+    scenario = FIGURES["8"].changed(parameters=FIGURES["8"].parameters.changed(DEVICES[device]))
+    fine = Settings(relative_tolerance=1e-9, communication_step=0.005)
+    reference = values(brake(whole, scenario, fine), "compression")
+    trace = coupled(hitch, scenario.parameters, scenario.brake_torque, [0.005] * 1200, **masses(scenario.parameters))
+    error = np.abs(trace.compression - reference).max() / np.ptp(reference)
+    print(f"{device}: compression within {100 * error:.2f} % of its range")
+    assert error < 5e-3
+
+
+@pytest.mark.parametrize("order", sampled(["hitch first", "iterated"], {"hitch first"}))
 def test_other_masters(hitch: Unit, exact: dict[float, float], order: str) -> None:
     """Gauss-Seidel and repeated steps, with the means: what the bodies get is what the hitch gave, to rounding."""
     start, torque = gentle_braking(CASES["ii"], V)
@@ -175,23 +216,25 @@ def test_other_masters(hitch: Unit, exact: dict[float, float], order: str) -> No
     assert owed(trace).max() < 1e-9
 
 
+RATES = {"5 steps": 5, "1 to 10 steps": (1, 11), "4 to 6 ms": 1}
+
+
+@pytest.mark.parametrize("rate", sampled(RATES, {"1 to 10 steps"}))
 @pytest.mark.parametrize("told", sampled([False, True], {True}))
 @pytest.mark.parametrize("C", sampled([100.0, 500.0], {500.0}))
 def test_several_steps_to_an_exchange_of_any_length(
-    hitch: Unit, exact: dict[float, float], C: float, told: bool
+    hitch: Unit, exact: dict[float, float], C: float, told: bool, rate: str
 ) -> None:
     random = np.random.default_rng(1)
     start, torque = gentle_braking(CASES["ii"].changed({"C": C}), V)
-    settings = masses(CASES["ii"]) if told else {}
-    same = growth(coupled(hitch, start, torque, [0.005] * 1200, **settings))
-    for what, sizes, count in (
-        ("5 steps", [0.005] * 1200, lambda: 5),
-        ("1 to 10 steps", [0.005] * 1200, lambda: int(random.integers(1, 11))),
-        ("4 to 6 ms", random.uniform(0.004, 0.006, 1200).tolist(), lambda: 1),
-    ):
-        trace = coupled(hitch, start, torque, sizes, count=count, **settings)
-        print(f"C = {C:g}, {what}, masses {'told' if told else 'not told'}: error {growth(trace) - exact[C]:+.5f} 1/s, "
-              f"owed {owed(trace)}")  # fmt: skip
-        assert abs(growth(trace) - exact[C]) < 0.05 * ASKED[0.005]
-        assert what == "4 to 6 ms" or growth(trace) == pytest.approx(same, abs=1e-5)
-        assert owed(trace).max() < 0.3
+    steps = RATES[rate]
+    sizes = random.uniform(0.004, 0.006, 1200).tolist() if rate == "4 to 6 ms" else [0.005] * 1200
+    trace = coupled(
+        hitch, start, torque, sizes,
+        count=lambda: int(random.integers(*steps)) if isinstance(steps, tuple) else steps,
+        **(masses(CASES["ii"]) if told else {}),
+    )  # fmt: skip
+    print(f"C = {C:g}, {rate}, masses {'told' if told else 'not told'}: error {growth(trace) - exact[C]:+.5f} 1/s, "
+          f"owed {owed(trace)}")  # fmt: skip
+    assert abs(growth(trace) - exact[C]) < 0.05 * ASKED[0.005]
+    assert owed(trace).max() < 0.1

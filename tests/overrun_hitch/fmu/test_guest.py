@@ -60,11 +60,16 @@ def test_an_fmu_that_ends_its_process_is_one_line_and_status_2(
 
 @pytest.mark.full
 def test_one_of_a_pair_that_hangs(
-    pair_fmus: dict[int, dict[str, Path]], car_trailer_fmu: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+    pair_fmus: dict[int, dict[str, Path]],
+    hitch_fmu: Path,
+    car_trailer_fmu: Path,
+    tmp_path: Path,
+    capfd: pytest.CaptureFixture[str],
 ) -> None:
     trailer = stranger(pair_fmus[2]["Trailer"], tmp_path / "hangs.fmu", do_step=f"if (time > 1.0) {{ {HANGS} }}")
-    car, whole = str(pair_fmus[2]["Car"]), str(car_trailer_fmu)
-    command = ["couple", "--car", car, "--trailer", str(trailer), "--whole", whole, "--H", "0.05", "--time-limit", "2"]
+    car = str(pair_fmus[2]["Car"])
+    fmus = ["--car", car, "--trailer", str(trailer), "--hitch", str(hitch_fmu), "--whole", str(car_trailer_fmu)]
+    command = ["couple", *fmus, "--H", "0.05", "--time-limit", "2"]
     assert cli.main([*command, "--output", str(tmp_path / "out")]) == 2
     words = "did not finish within 2 s (--time-limit); the run was 'jacobi' with H = 0.05 s"
     assert capfd.readouterr().err == f"hitch: {car} with {trailer}: {words}\n"
