@@ -16,6 +16,7 @@ typedef struct {
 #define FIELD(field) {#field, offsetof(State, field), sizeof(((State *)NULL)->field)}
 
 static const Field bool_fields[] = {
+    FIELD(calculated),
     FIELD(settled),
     FIELD(current),
     FIELD(holds),

@@ -20,6 +20,9 @@ static double band(int relation) { return RESIDUAL_ROUNDING * variable_info[rela
 
 static bool truth(int relation, double z, bool held) { return held ? z > -band(relation) : z > band(relation); }
 
+/* Has it changed? Most often the sign alone tells that it has not. */
+static bool changes(int relation, double z, bool held) { return (z > 0.0) != held && truth(relation, z, held) != held; }
+
 static void take_truths(const double z[], const bool held[], bool truths[])
 {
     for (int i = 0; i < N_RELATIONS; i++) {
@@ -69,7 +72,7 @@ static bool changed_at(const Rodas *r, double fraction, Variables *v, const bool
     rodas_dense(&r->path, fraction, &v->at[FIRST_STATE]);
     model_relations(v, holds, z);
     for (int i = 0; i < N_RELATIONS; i++) {
-        if (truth(i, z[i], holds[i]) != holds[i]) {
+        if (changes(i, z[i], holds[i])) {
             return true;
         }
     }
@@ -177,7 +180,7 @@ bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving,
 bool events_hold(const Variables *v, const bool holds[])
 {
     for (int i = 0; i < N_RELATIONS; i++) {
-        if (truth(i, v->at[relation_reference[i]], holds[i]) != holds[i]) {
+        if (changes(i, v->at[relation_reference[i]], holds[i])) {
             return false;
         }
     }

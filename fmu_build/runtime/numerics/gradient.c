@@ -20,12 +20,8 @@ static void by_moving_inputs(const Ramp *ramp, const Variables *v, const bool ho
 
 static int first_bad(const double jacobian[], const double time_derivative[])
 {
-    for (int e = 0; e < N_JACOBIAN; e++) {
-        if (!isfinite(jacobian[e])) {
-            return jacobian_row[e];
-        }
-    }
-    return first_not_finite(time_derivative, N_STATES);
+    const int entry = first_not_finite(jacobian, N_JACOBIAN);
+    return entry != FINITE ? jacobian_row[entry] : first_not_finite(time_derivative, N_STATES);
 }
 
 /* The slopes of all derivatives with the state or the time at[index]. */

@@ -114,12 +114,16 @@ void rodas_bend(Rodas *r)
     }
 }
 
-void rodas_dense(const Path *path, double fraction, double state[])
+void rodas_dense(const Path *restrict path, double fraction, double *restrict state)
 {
     const double s = fraction;
+    if (!(s < 1.0)) {
+        memcpy(state, path->end, N_STATES * sizeof(double));
+        return;
+    }
     for (int i = 0; i < N_STATES; i++) {
         const double bend = path->bend[0][i] + s * (path->bend[1][i] + s * path->bend[2][i]);
         /* written as an increment, so that a short way from the start loses nothing to rounding */
-        state[i] = s < 1.0 ? path->state[i] + s * (path->end[i] - path->state[i] + (1.0 - s) * bend) : path->end[i];
+        state[i] = path->state[i] + s * (path->end[i] - path->state[i] + (1.0 - s) * bend);
     }
 }

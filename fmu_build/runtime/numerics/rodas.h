@@ -46,7 +46,8 @@ int rodas_try(Rodas *r, double length, Variables *v, const bool holds[]);
 /* Prepare rodas_dense for the last trial. */
 void rodas_bend(Rodas *r);
 
-/* The states at time + fraction * length, 0 <= fraction <= 1: dense output, of order 4. */
-void rodas_dense(const Path *path, double fraction, double state[]);
+/* The states at time + fraction * length, 0 <= fraction <= 1: dense output, of order 4. They lie elsewhere than the
+ * path. */
+void rodas_dense(const Path *restrict path, double fraction, double *restrict state);
 
 #endif

@@ -14,6 +14,7 @@ PROBE void probe_counters(const void *component, int64_t counters[6]);
 PROBE size_t probe_state_size(void);
 PROBE void probe_state(const void *component, void *state);
 PROBE void probe_coefficients(double *gamma, double a[56], double c[56], double node[8], double d[8], double h[24]);
+PROBE int probe_first_not_finite(const double a[], int n);
 PROBE void probe_fixed_steps(double start, double end, int steps, double x[], double fraction, double dense[],
                              double embedded[]);
 
@@ -45,6 +46,8 @@ void probe_coefficients(double *gamma, double a[56], double c[56], double node[8
     memcpy(d, RODAS_D, sizeof RODAS_D);
     memcpy(h, RODAS_BEND, sizeof RODAS_BEND);
 }
+
+int probe_first_not_finite(const double a[], int n) { return first_not_finite(a, n); }
 
 /* Equal steps from the model's start values; dense and embedded belong to the last step. */
 void probe_fixed_steps(double start, double end, int steps, double x[], double fraction, double dense[],
