@@ -28,7 +28,7 @@ static void correct(Instance *instance, double error, double size)
     const double q = size / (size + s->coupling.span);
     Variables d = {.at = {0.0}};
     d.at[coupling_info.across] = error * size * (0.5 - q / 6.0);
-    model_tangent(&s->v, s->holds, false, &d);
+    model_input_tangent(&s->v, s->holds, &d);
     model_jacobian(&s->v, s->holds, r->jacobian, r->time_derivative);
     const double per_lag = (6.0 - 2.0 * q) / (size * (2.0 - q));
     if (!lu_factorize(r->jacobian, per_lag, r->factors)) {

@@ -14,7 +14,7 @@ static void by_moving_inputs(const Ramp *ramp, const Variables *v, const bool ho
     Variables d = {.at = {0.0}};
     d.time = 1.0;
     ramp_rates(ramp, v, &d);
-    model_tangent(v, holds, false, &d);
+    model_input_tangent(v, holds, &d);
     memcpy(time_derivative, &d.at[FIRST_DERIVATIVE], N_STATES * sizeof(double));
 }
 
