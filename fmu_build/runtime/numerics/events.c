@@ -64,6 +64,23 @@ bool events_settle(Variables *v, bool holds[], Message *why)
     return false;
 }
 
+static bool any_changes(const double z[], const bool holds[])
+{
+    for (int i = 0; i < N_RELATIONS; i++) {
+        if (changes(i, z[i], holds[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool events_have_changed(Variables *v, const bool holds[])
+{
+    double z[AT_LEAST_ONE(N_RELATIONS)];
+    model_relations(v, holds, z);
+    return any_changes(z, holds);
+}
+
 /* Residuals at a point of the trial. */
 static bool changed_at(const Rodas *r, double fraction, Variables *v, const bool holds[], double z[])
 {
@@ -71,12 +88,7 @@ static bool changed_at(const Rodas *r, double fraction, Variables *v, const bool
     ramp_apply(r->ramp, v);
     rodas_dense(&r->path, fraction, &v->at[FIRST_STATE]);
     model_relations(v, holds, z);
-    for (int i = 0; i < N_RELATIONS; i++) {
-        if (changes(i, z[i], holds[i])) {
-            return true;
-        }
-    }
-    return false;
+    return any_changes(z, holds);
 }
 
 /* The truths where a trial leaves the surfaces on which it starts; false if it starts on none of those that it crosses

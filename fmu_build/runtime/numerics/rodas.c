@@ -16,14 +16,19 @@ static void take_derivatives(const Variables *v, double derivative[])
     }
 }
 
+int rodas_derivative(Variables *v, const bool holds[], double derivative[])
+{
+    model_derivatives(v, holds);
+    take_derivatives(v, derivative);
+    return first_not_finite(derivative, N_STATES);
+}
+
 int rodas_start(Rodas *r, Variables *v, const bool holds[], const Ramp *ramp)
 {
     r->ramp = ramp;
     r->path.time = v->time;
     memcpy(r->path.state, &v->at[FIRST_STATE], N_STATES * sizeof(double));
-    model_derivatives(v, holds);
-    take_derivatives(v, r->derivative);
-    const int bad = first_not_finite(r->derivative, N_STATES);
+    const int bad = rodas_derivative(v, holds, r->derivative);
     return bad != FINITE ? bad : gradient(ramp, v, holds, r->derivative, r->jacobian, r->time_derivative);
 }
 
@@ -69,9 +74,7 @@ static int stage_derivative(Rodas *r, int stage, Variables *v, const bool holds[
         memcpy(f, r->derivative, N_STATES * sizeof(double));
         return FINITE;
     }
-    model_derivatives(v, holds);
-    take_derivatives(v, f);
-    return first_not_finite(f, N_STATES);
+    return rodas_derivative(v, holds, f);
 }
 
 int rodas_try(Rodas *r, double length, Variables *v, const bool holds[])

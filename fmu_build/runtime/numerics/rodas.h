@@ -31,6 +31,9 @@ typedef struct {
     Vector u[RODAS_STAGES];
 } Rodas;
 
+/* The derivatives at the point in v. Returns FINITE, or the index of the first one that is not finite. */
+int rodas_derivative(Variables *v, const bool holds[], double derivative[]);
+
 /* Fix the start of a step at the time and the states in v: evaluates the derivatives and the Jacobian there, once for
  * all trials of the step. The ramp, which moves the inputs, has to live as long. Returns FINITE, or the index of the
  * first state whose derivative is not finite. */
