@@ -1,4 +1,4 @@
-"""Measure an FMU of CarTrailer; write results.md and its picture. `make bench`.
+"""Measure FMUs of CarTrailer and Trailer; write results.md and its picture. `make bench`.
 
 Exit status 1 where a requirement is missed: of times, their ratios are judged, measured side by side.
 """
@@ -20,6 +20,7 @@ from benchmarks import (
     rumoca_contenders,
     scipy_contenders,
     six_seconds,
+    steps,
     sweep,
     work_precision,
 )
@@ -72,7 +73,7 @@ def _version(package: str) -> str:
 
 def main() -> int:
     """Measure, print and write; 1 where a requirement is missed."""
-    fmu = Path(sys.argv[1])
+    fmu, trailer = map(Path, sys.argv[1:3])
     with tempfile.TemporaryDirectory(prefix="benchmark-") as name, threadpool_limits(1):
         folder = Path(name)
         with fmu_contenders.contenders(fmu, folder) as ours:
@@ -81,8 +82,9 @@ def main() -> int:
             against, faster = comparison.section(contenders, lambda: rumoca.preparation(comparison.DEFAULT))
             picture = rendered(work_precision.drawn(work_precision.measured(contenders)), "svg")
         in_c, within = six_seconds.section(fmu, folder)
+        by_step = steps.section([fmu, trailer], folder)
     sweeps, cheap = sweep.section(fmu)
-    text = "\n".join([head(), against, DIAGRAM.lstrip(), in_c.rstrip() + "\n", sweeps])
+    text = "\n".join([head(), against, DIAGRAM.lstrip(), in_c.rstrip() + "\n", by_step, sweeps])
     (HERE / PICTURE).write_bytes(picture)
     (HERE / "results.md").write_text(text, encoding="utf-8")
     print(text)

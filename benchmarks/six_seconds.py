@@ -28,17 +28,25 @@ the communication points), is measured between the runs.
 """
 
 
-def compiled(fmu: Path, folder: Path) -> list[str]:
-    """The C program's command but for tolerance and runs; it is made in the folder, from the FMU's sources."""
+def linked(fmu: Path, folder: Path, source: str) -> Path:
+    """A C program with the FMU's sources, which are one unit as they are in its library; all in the folder."""
     with zipfile.ZipFile(fmu) as archive:
         archive.extractall(folder)
+    sources = folder / "sources"
+    unit = folder / "unit.c"
+    unit.write_text("".join(f'#include "{file.name}"\n' for file in sorted(sources.glob("*.c"))), encoding="utf-8")
+    options = [option for option in OPTIONS if option != "-shared"]
+    program = folder / Path(source).stem
+    command = [*compiler(), *options, f"-I{sources}", str(HERE / source), str(unit), "-o", str(program), "-lm"]
+    subprocess.run(command, check=True)
+    return program
+
+
+def compiled(fmu: Path, folder: Path) -> list[str]:
+    """The C program's command but for tolerance and runs; it is made in the folder."""
+    program = linked(fmu, folder, "six_seconds.c")
     description = fmpy.read_model_description(str(fmu))
     references = {v.name: str(v.valueReference) for v in description.modelVariables}
-    sources = [str(HERE / "six_seconds.c"), *map(str, sorted((folder / "sources").glob("*.c")))]
-    options = [option for option in OPTIONS if option != "-shared"]
-    program = folder / "six_seconds"
-    command = [*compiler(), *options, f"-I{folder / 'sources'}", *sources, "-o", str(program), "-lm"]
-    subprocess.run(command, check=True)
     return [str(program), description.guid, references["brake_torque"], references["compression"]]
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import fields
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import fields, replace
 from itertools import groupby
 
 import sympy
@@ -113,6 +113,10 @@ def _model(model: SortedModel, jacobian: JacobianModel, printer: Printer) -> str
         _jacobian(model, jacobian, printer),
         function("model_relations(Variables *v, const bool holds[], double z[])", _relations(model, printer)),
         _chain("model_tangent", jacobian, printer, _tangent),
+        function(
+            "model_input_tangent(const Variables *v, const bool holds[], Variables *d)",
+            _tangent(_moved_by_inputs(model, jacobian), printer),
+        ),
         _chain("model_adjoint", jacobian, printer, _adjoint),
     ]
     return f"""{comment(f"Generated from {model.name}. Each line bears the place in the source that it comes from.")}
@@ -210,6 +214,20 @@ def _adjoint(partials: Iterable[Partials | LoopPartials], printer: Printer) -> l
             for name, value in p.by_argument
         ]
     return lines
+
+
+def _moved_by_inputs(model: SortedModel, jacobian: JacobianModel) -> Iterator[Partials | LoopPartials]:
+    """On the way to the derivatives: what the time and inputs move while states and parameters stay."""
+    moved = {TIME, *model.inputs}
+    needed = {name for block in needed_for(model.derivatives, model) for name in block.targets}
+    for p in jacobian.partials:
+        if isinstance(p, LoopPartials):
+            if needed & {*p.loop.targets} and moved & {name for row in p.by_argument for name, _ in row}:
+                moved |= {*p.loop.targets}
+                yield p
+        elif p.target in needed and (terms := tuple(term for term in p.by_argument if term[0] in moved)):
+            moved.add(p.target)
+            yield replace(p, by_argument=terms)
 
 
 def _product(value: sympy.Expr, factor: str, printer: Printer) -> str:

@@ -165,6 +165,10 @@ void model_relations(Variables *v, const bool holds[], double z[]);
  * STATE_CALCULATED are calculated, otherwise they are known. */
 void model_tangent(const Variables *v, const bool holds[], bool at_start, Variables *d);
 
+/* The same of the derivatives alone, and of what is on the way to them, with seeds of time and inputs alone; all else
+ * in d is zero. */
+void model_input_tangent(const Variables *v, const bool holds[], Variables *d);
+
 /* Chain rule, reverse: d bears the seeds of what is calculated, zero elsewhere, and gets the adjoints of what is known
  * (those of what is calculated are left over from the way). */
 void model_adjoint(const Variables *v, const bool holds[], bool at_start, Variables *d);

@@ -132,16 +132,20 @@ class CompiledModel:
     def tangent(self, seeds: dict[str, float], at_start: bool) -> dict[str, float]:
         return self._chained("model_tangent", seeds, at_start)
 
+    def input_tangent(self, seeds: dict[str, float]) -> dict[str, float]:
+        return self._chained("model_input_tangent", seeds, None)
+
     def adjoint(self, seeds: dict[str, float], at_start: bool) -> dict[str, float]:
         return self._chained("model_adjoint", seeds, at_start)
 
-    def _chained(self, function: str, seeds: dict[str, float], at_start: bool) -> dict[str, float]:
+    def _chained(self, function: str, seeds: dict[str, float], at_start: bool | None) -> dict[str, float]:
         d = np.zeros(len(self.at))
         for name, value in seeds.items():
             d[self.references[name]] = value
         holds = self.relations() > 0
-        pointers = [ctypes.c_void_p(a.ctypes.data) for a in (self.at, holds, d)]
-        getattr(self._library, function)(pointers[0], pointers[1], ctypes.c_bool(at_start), pointers[2])
+        *known, seeded = (ctypes.c_void_p(a.ctypes.data) for a in (self.at, holds, d))
+        choice = () if at_start is None else (ctypes.c_bool(at_start),)
+        getattr(self._library, function)(*known, *choice, seeded)
         return {name: float(d[reference]) for name, reference in self.references.items()}
 
 

@@ -183,6 +183,33 @@ end M;"""
     assert model.jacobian()[0, 0] == pytest.approx(slope, rel=1e-14)
 
 
+@pytest.mark.parametrize(
+    "loop",
+    ["w = x*u + p", "w + sin(w) = x*u + p + time", "w + 2*z = u; z - w*p = x; y = z", "w = if time > p then u else x"],
+)
+def test_tangent_by_inputs_is_the_tangent_of_the_derivatives(compiled_model: Compile, loop: str) -> None:
+    more = "Real z; Real y;" if "z" in loop else ""
+    model = compiled_model(
+        f"""model M
+  parameter Real p = 0.3;
+  input Real u(start=0.7);
+  input Real unused;
+  Real x(start=1, fixed=true); Real v(start=2, fixed=true); Real w; Real q; {more}
+equation
+  {loop};
+  der(x) = w*v + p;
+  der(v) = cos(w)*u - time*x;
+  q = u*w*p;
+end M;"""
+    )
+    model["time"] = 0.4
+    model.outputs()
+    for name in ("time", *model.model.inputs):
+        whole, brief = model.tangent({name: 1.0}, at_start=False), model.input_tangent({name: 1.0})
+        derivatives = model.model.derivatives
+        np.testing.assert_array_equal([brief[d] for d in derivatives], [whole[d] for d in derivatives])
+
+
 @pytest.mark.parametrize("s_rel", [0.5, 0.02, -0.6])
 @pytest.mark.parametrize("at_start", [False, True])
 def test_tangent_against_differences_and_adjoint_against_tangent(

@@ -78,6 +78,9 @@ static bool set_out(Instance *instance, double target, double next, Message *why
     State *s = &instance->state;
     Course *course = &s->course;
     const bool may_pass = N_COUPLINGS == 0 && s->calm && !s->ramp.moves;
+    if (may_pass) {
+        integrator_go_free(&s->integrator);
+    }
     /* What makes a longer step fail may never happen. */
     if (!(may_pass && make_step(instance, next, why)) && !make_step(instance, target, why)) {
         return false;

@@ -30,7 +30,7 @@ static void correct(Instance *instance, const double errors[], double size)
         d.at[coupling_info.across[i].input] = errors[i] * size * (0.5 - coupling_exchange_bend(s, i, size) / 6.0);
         q += coupling_exchange_bend(s, i, size) / N_ACROSS;
     }
-    model_tangent(&s->v, s->holds, false, &d);
+    model_input_tangent(&s->v, s->holds, &d);
     model_jacobian(&s->v, s->holds, r->jacobian, r->time_derivative);
     const double per_lag = (6.0 - 2.0 * q) / (size * (2.0 - q));
     if (!lu_factorize(r->jacobian, per_lag, r->factors)) {

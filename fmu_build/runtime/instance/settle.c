@@ -50,7 +50,10 @@ bool settle_truths(Instance *instance, Message *why)
     if (s->settled) {
         return true;
     }
-    model_parameters(&s->v);
+    if (!s->calculated) {
+        model_parameters(&s->v);
+        s->calculated = true;
+    }
     if (truths_follow(s->phase)) {
         memcpy(holds, s->holds, sizeof holds);
         if (!(before_start ? settle_start(s, why) : discrete_settle(s, true, why))) {

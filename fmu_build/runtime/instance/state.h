@@ -96,8 +96,9 @@ typedef struct {
 typedef struct {
     Use use;
     Phase phase;
-    bool settled; /* parameters, start values and holds follow from what has been set */
-    bool current; /* and so do all of v */
+    bool calculated; /* calculated parameters follow from those that have been set */
+    bool settled;    /* parameters, start values and holds follow from what has been set */
+    bool current;    /* and so do all of v */
     double tolerance;
     double stop; /* INFINITY: not given */
     Variables v;

@@ -16,6 +16,7 @@ typedef struct {
 #define FIELD(field) {#field, offsetof(State, field), sizeof(((State *)NULL)->field)}
 
 static const Field bool_fields[] = {
+    FIELD(calculated),
     FIELD(settled),
     FIELD(current),
     FIELD(holds),
@@ -50,16 +51,31 @@ static const Field bool_fields[] = {
 };
 
 static const Field double_fields[] = {
-    FIELD(v.time),           FIELD(density.span),    FIELD(density.since),     FIELD(ramp.start),
-    FIELD(ramp.from),        FIELD(ramp.slope),      FIELD(integrator.length), FIELD(integrator.left_surface),
+    FIELD(v.time),
+    FIELD(density.span),
+    FIELD(density.since),
+    FIELD(ramp.start),
+    FIELD(ramp.from),
+    FIELD(ramp.slope),
+    FIELD(integrator.length),
+    FIELD(integrator.left_surface),
+    FIELD(integrator.behind),
+    FIELD(integrator.brief),
 #if HAS_EVENTS
     FIELD(discrete.ticks),
 #endif
 #if N_COUPLINGS > 0
     FIELD(coupling.now), /* these two are of doubles alone */
-    FIELD(coupling.change),  FIELD(coupling.before), FIELD(coupling.interval), FIELD(coupling.usual),
-    FIELD(coupling.applied), FIELD(coupling.slope),  FIELD(coupling.across),   FIELD(coupling.through),
-    FIELD(coupling.mean),    FIELD(coupling.hold),
+    FIELD(coupling.change),
+    FIELD(coupling.before),
+    FIELD(coupling.interval),
+    FIELD(coupling.usual),
+    FIELD(coupling.applied),
+    FIELD(coupling.slope),
+    FIELD(coupling.across),
+    FIELD(coupling.through),
+    FIELD(coupling.mean),
+    FIELD(coupling.hold),
 #endif
 };
 
@@ -141,7 +157,8 @@ static bool check_integrator(const Integrator *m, const EventDensity *density, M
             return disbelieve("integrator.counters", why);
         }
     }
-    if (!(m->length >= 0.0) || !(m->error_constant >= 0.0)) {
+    if (!(m->length >= 0.0) || !(m->error_constant >= 0.0) || !(m->behind >= 0.0) || !(m->brief >= 0.0) ||
+        m->cuts < 0) {
         return disbelieve("integrator", why);
     }
     return (density->count >= 0 && density->count < INT_MAX / 2) || disbelieve("density.count", why);

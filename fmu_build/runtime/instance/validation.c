@@ -196,9 +196,21 @@ bool valid_states(const Point *p, double tolerance, Message *why)
     return true;
 }
 
+/* What has been set, inputs and parameters, is finite. */
+static int first_bad_variable(const Variables *v)
+{
+    static const int first_calculated = FIRST_PARAMETER + N_PARAMETERS;
+    const int bad = first_not_finite(v->at, FIRST_INPUT);
+    if (bad != FINITE) {
+        return bad;
+    }
+    const int other = first_not_finite(&v->at[first_calculated], N_VARIABLES - first_calculated);
+    return other != FINITE ? first_calculated + other : FINITE;
+}
+
 bool valid_variables(const Variables *v, Message *why)
 {
-    const int bad = first_not_finite(v->at, N_VARIABLES);
+    const int bad = first_bad_variable(v);
     if (bad == FINITE) {
         return true;
     }

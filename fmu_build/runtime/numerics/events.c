@@ -20,6 +20,9 @@ static double band(int relation) { return RESIDUAL_ROUNDING * variable_info[rela
 
 static bool truth(int relation, double z, bool held) { return held ? z > -band(relation) : z > band(relation); }
 
+/* Has it changed? Most often the sign alone tells that it has not. */
+static bool changes(int relation, double z, bool held) { return (z > 0.0) != held && truth(relation, z, held) != held; }
+
 static void take_truths(const double z[], const bool held[], bool truths[])
 {
     for (int i = 0; i < N_RELATIONS; i++) {
@@ -61,6 +64,23 @@ bool events_settle(Variables *v, bool holds[], Message *why)
     return false;
 }
 
+static bool any_changes(const double z[], const bool holds[])
+{
+    for (int i = 0; i < N_RELATIONS; i++) {
+        if (changes(i, z[i], holds[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool events_have_changed(Variables *v, const bool holds[])
+{
+    double z[AT_LEAST_ONE(N_RELATIONS)];
+    model_relations(v, holds, z);
+    return any_changes(z, holds);
+}
+
 /* Residuals at a point of the trial. */
 static bool changed_at(const Rodas *r, double fraction, Variables *v, const bool holds[], double z[])
 {
@@ -68,12 +88,7 @@ static bool changed_at(const Rodas *r, double fraction, Variables *v, const bool
     ramp_apply(r->ramp, v);
     rodas_dense(&r->path, fraction, &v->at[FIRST_STATE]);
     model_relations(v, holds, z);
-    for (int i = 0; i < N_RELATIONS; i++) {
-        if (truth(i, z[i], holds[i]) != holds[i]) {
-            return true;
-        }
-    }
-    return false;
+    return any_changes(z, holds);
 }
 
 /* The truths where a trial leaves the surfaces on which it starts; false if it starts on none of those that it crosses
@@ -177,7 +192,7 @@ bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving,
 bool events_hold(const Variables *v, const bool holds[])
 {
     for (int i = 0; i < N_RELATIONS; i++) {
-        if (truth(i, v->at[relation_reference[i]], holds[i]) != holds[i]) {
+        if (changes(i, v->at[relation_reference[i]], holds[i])) {
             return false;
         }
     }

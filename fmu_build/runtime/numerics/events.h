@@ -31,6 +31,9 @@ typedef struct {
  * truth soon differs and `leaving` allows it, the event is at the start, and its truth is that of the side gone to. */
 bool events_find(const Rodas *r, Variables *v, const bool holds[], bool leaving, Event *event);
 
+/* Does some truth at the point in v differ from the held one? */
+bool events_have_changed(Variables *v, const bool holds[]);
+
 /* Are the truths held those of the residuals in v, which are up to date? */
 bool events_hold(const Variables *v, const bool holds[]);
 

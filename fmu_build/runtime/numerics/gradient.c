@@ -14,18 +14,14 @@ static void by_moving_inputs(const Ramp *ramp, const Variables *v, const bool ho
     Variables d = {.at = {0.0}};
     d.time = 1.0;
     ramp_rates(ramp, v, &d);
-    model_tangent(v, holds, false, &d);
+    model_input_tangent(v, holds, &d);
     memcpy(time_derivative, &d.at[FIRST_DERIVATIVE], N_STATES * sizeof(double));
 }
 
 static int first_bad(const double jacobian[], const double time_derivative[])
 {
-    for (int e = 0; e < N_JACOBIAN; e++) {
-        if (!isfinite(jacobian[e])) {
-            return jacobian_row[e];
-        }
-    }
-    return first_not_finite(time_derivative, N_STATES);
+    const int entry = first_not_finite(jacobian, N_JACOBIAN);
+    return entry != FINITE ? jacobian_row[entry] : first_not_finite(time_derivative, N_STATES);
 }
 
 /* The slopes of all derivatives with the state or the time at[index]. */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "brief.h"
 #include "events.h"
 #include "loops.h"
 
@@ -32,12 +33,26 @@ static const double NEAR_END = 0.9;
 static const double BEHIND_EVENT = 1.0 + 1.0 / 32.0;
 enum { MAX_REPEATS = 5 };
 
+/* Where inputs change at every communication point, steps end there, short of the length that the control would choose.
+ * Behind the first few they are made by a method that takes half of the work. Over that length the errors estimated may
+ * add up to so many allowed ones: they are those of the embedded solution, and the one that goes on is much better.
+ * Where one has been more, such steps are tried again when they may be a little longer each. */
+enum { FEW_CUTS = 2 };
+static const double BRIEF_ERROR = 3.0;
+static const double BRIEF_ORDER = 3.0; /* of the error over the step's share of that length */
+static const double BRIEF_GROWTH = 1.02;
+/* Up to this share of the length switching points are looked for at the end alone; Rodas5P's steps have four samples.
+ */
+static const double BRIEF_SAMPLE = 0.25;
+
 void integrator_discontinuity(Integrator *m)
 {
     m->error_constant = 0.0;
     m->restart = true;
     m->has_left_surface = false;
 }
+
+void integrator_go_free(Integrator *m) { m->cuts = 0; }
 
 double integrator_allowed_error(int state, double value, double tolerance)
 {
@@ -217,6 +232,7 @@ static bool arrive_at_event(Integrator *m, const Rodas *r, Variables *v, const E
 {
     m->counters.events++;
     integrator_discontinuity(m);
+    m->behind = 0.0;
     memcpy(arrival->holds, event->truths, sizeof arrival->holds);
     arrival->event = true;
     rodas_dense(&r->path, event->fraction, arrival->state);
@@ -245,11 +261,61 @@ static bool start(Integrator *m, Rodas *r, Variables *v, const bool holds[], con
     }
     if (m->length <= 0.0) {
         m->length = first_length(r, tolerance);
+    } else if (m->restart && m->behind > 0.0) {
+        m->length = fmin(m->length, m->behind); /* what was learned behind the last jump of an input serves again */
     } else if (m->restart) {
         m->length = fmin(m->length, CAUTION * first_length(r, tolerance));
     }
-    m->restart = false;
     return true;
+}
+
+static void count_cuts(Integrator *m, double length, double remaining)
+{
+    if (remaining > MAX_GROWTH * length) {
+        m->cuts = 0;
+    } else if (remaining <= length && length < m->length) {
+        m->cuts = m->cuts < FEW_CUTS ? m->cuts + 1 : FEW_CUTS;
+    }
+}
+
+/* Whether the brief step that has just been tried passes a switching point. */
+static bool passes_event(const Integrator *m, Rodas *r, Variables *v, const bool holds[])
+{
+    Event event;
+    if (N_RELATIONS == 0) {
+        return false;
+    }
+    if (HAS_EVENTS || r->path.length > BRIEF_SAMPLE * m->length) {
+        brief_bend(r);
+        return events_find(r, v, holds, false, &event);
+    }
+    v->time = r->path.time + r->path.length;
+    ramp_apply(r->ramp, v);
+    memcpy(&v->at[FIRST_STATE], r->path.end, N_STATES * sizeof(double));
+    return events_have_changed(v, holds);
+}
+
+/* A step of this length by the brief method. False: it will not do, or there is an event. Not inlined: the other steps,
+ * which are most where inputs are constant, would take 2 % longer. */
+NOT_INLINED static bool step_briefly(Integrator *m, Rodas *r, Variables *v, const bool holds[], double length,
+                                     double tolerance)
+{
+    m->brief = m->brief < m->length ? BRIEF_GROWTH * m->brief : 0.0;
+    if (m->cuts < FEW_CUTS || length > m->length || (m->brief > 0.0 && length > m->brief)) {
+        return false;
+    }
+    m->counters.evaluations += BRIEF_EVALUATIONS;
+    const int not_finite = brief_try(r, length, v, holds);
+    const double weight = fmax(1.0, m->length / (BRIEF_ERROR * length));
+    const double error = not_finite == FINITE ? weight * error_norm(r, tolerance) : (double)INFINITY;
+    if (!(error <= 1.0)) {
+        m->counters.rejected++;
+        m->brief = length * fmax(MAX_SHRINK, SAFETY * pow(error, -1.0 / BRIEF_ORDER));
+        return false;
+    }
+    const bool passes = passes_event(m, r, v, holds);
+    m->counters.repeated += passes;
+    return !passes;
 }
 
 bool integrator_step(Integrator *m, Rodas *r, Variables *v, const bool holds[], const Ramp *ramp, double target,
@@ -266,6 +332,12 @@ bool integrator_step(Integrator *m, Rodas *r, Variables *v, const bool holds[], 
     bool rejected = false;
     bool found = false;
     Event event;
+    const bool restart = m->restart;
+    m->restart = false;
+    if (step_briefly(m, r, v, holds, remaining, tolerance)) {
+        arrive_at_end(m, r, holds, target, remaining, arrival);
+        return true;
+    }
     for (int repeat = 0;; repeat++) {
         if (!accept(m, r, v, holds, &length, tolerance, &rejected, shortest, &error, why)) {
             return false;
@@ -280,7 +352,9 @@ bool integrator_step(Integrator *m, Rodas *r, Variables *v, const bool holds[], 
         m->counters.repeated++;
         length *= event.fraction * BEHIND_EVENT;
     }
+    count_cuts(m, length, remaining);
     learn(m, length, error, rejected);
+    m->behind = restart ? m->length : m->behind;
     if (found) {
         return arrive_at_event(m, r, v, &event, target, arrival, why);
     }

@@ -23,7 +23,10 @@ typedef struct {
     double error_constant; /* error / length^5 of the last step; 0: not known */
     double left_surface;   /* last time at which a truth was decided by leaving a surface; only once at a time */
     bool has_left_surface;
-    bool restart; /* the next step is the first one behind a discontinuity */
+    bool restart;  /* the next step is the first one behind a discontinuity */
+    double behind; /* the length chosen behind the last discontinuity, if that was no event; 0: not known */
+    int cuts;      /* so many steps have been cut to end at their target, with none between that was far from one */
+    double brief;  /* up to this length the brief method may do; 0: nothing has been seen against it */
     Counters counters;
 } Integrator;
 
@@ -35,7 +38,7 @@ typedef struct {
     bool event; /* some truths have changed; time may be that of the start */
 } Point;
 
-/* Something has changed at once (an input, a parameter, a truth): what was learned about the error may not hold. */
+/* Something has been changed at once (an input, a parameter): what was learned about the error may not hold. */
 void integrator_discontinuity(Integrator *m);
 
 /* One accepted step from the point in v, at most to target, at most to the next event; the ramp moves the inputs.
@@ -43,6 +46,9 @@ void integrator_discontinuity(Integrator *m);
  * to its start. */
 bool integrator_step(Integrator *m, Rodas *r, Variables *v, const bool holds[], const Ramp *ramp, double target,
                      double tolerance, Point *arrival, Message *why);
+
+/* The next step may be longer than what is asked for, so that states on its way will be: none is to be brief. */
+void integrator_go_free(Integrator *m);
 
 /* The state whose error, relative to what is allowed, was the largest in the last trial; 0 if there are none. */
 int integrator_worst_state(const Rodas *r, double tolerance);

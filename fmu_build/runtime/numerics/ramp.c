@@ -1,6 +1,5 @@
 #include "ramp.h"
 
-#include <math.h>
 #include <string.h>
 
 static void forget_if_over(Ramp *ramp)
@@ -35,7 +34,7 @@ void ramp_begin(Ramp *ramp, const Variables *v)
 double ramp_limited(int input, double value)
 {
     const VariableInfo *info = &variable_info[FIRST_INPUT + input];
-    return fmin(info->max, fmax(info->min, value));
+    return value < info->min ? info->min : value > info->max ? info->max : value;
 }
 
 void ramp_apply(const Ramp *ramp, Variables *v)

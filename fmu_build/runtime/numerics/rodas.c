@@ -16,14 +16,19 @@ static void take_derivatives(const Variables *v, double derivative[])
     }
 }
 
+int rodas_derivative(Variables *v, const bool holds[], double derivative[])
+{
+    model_derivatives(v, holds);
+    take_derivatives(v, derivative);
+    return first_not_finite(derivative, N_STATES);
+}
+
 int rodas_start(Rodas *r, Variables *v, const bool holds[], const Ramp *ramp)
 {
     r->ramp = ramp;
     r->path.time = v->time;
     memcpy(r->path.state, &v->at[FIRST_STATE], N_STATES * sizeof(double));
-    model_derivatives(v, holds);
-    take_derivatives(v, r->derivative);
-    const int bad = first_not_finite(r->derivative, N_STATES);
+    const int bad = rodas_derivative(v, holds, r->derivative);
     return bad != FINITE ? bad : gradient(ramp, v, holds, r->derivative, r->jacobian, r->time_derivative);
 }
 
@@ -69,9 +74,7 @@ static int stage_derivative(Rodas *r, int stage, Variables *v, const bool holds[
         memcpy(f, r->derivative, N_STATES * sizeof(double));
         return FINITE;
     }
-    model_derivatives(v, holds);
-    take_derivatives(v, f);
-    return first_not_finite(f, N_STATES);
+    return rodas_derivative(v, holds, f);
 }
 
 int rodas_try(Rodas *r, double length, Variables *v, const bool holds[])
@@ -114,12 +117,16 @@ void rodas_bend(Rodas *r)
     }
 }
 
-void rodas_dense(const Path *path, double fraction, double state[])
+void rodas_dense(const Path *restrict path, double fraction, double *restrict state)
 {
     const double s = fraction;
+    if (!(s < 1.0)) {
+        memcpy(state, path->end, N_STATES * sizeof(double));
+        return;
+    }
     for (int i = 0; i < N_STATES; i++) {
         const double bend = path->bend[0][i] + s * (path->bend[1][i] + s * path->bend[2][i]);
         /* written as an increment, so that a short way from the start loses nothing to rounding */
-        state[i] = s < 1.0 ? path->state[i] + s * (path->end[i] - path->state[i] + (1.0 - s) * bend) : path->end[i];
+        state[i] = path->state[i] + s * (path->end[i] - path->state[i] + (1.0 - s) * bend);
     }
 }

@@ -31,6 +31,9 @@ typedef struct {
     Vector u[RODAS_STAGES];
 } Rodas;
 
+/* The derivatives at the point in v. Returns FINITE, or the index of the first one that is not finite. */
+int rodas_derivative(Variables *v, const bool holds[], double derivative[]);
+
 /* Fix the start of a step at the time and the states in v: evaluates the derivatives and the Jacobian there, once for
  * all trials of the step. The ramp, which moves the inputs, has to live as long. Returns FINITE, or the index of the
  * first state whose derivative is not finite. */
@@ -46,7 +49,8 @@ int rodas_try(Rodas *r, double length, Variables *v, const bool holds[]);
 /* Prepare rodas_dense for the last trial. */
 void rodas_bend(Rodas *r);
 
-/* The states at time + fraction * length, 0 <= fraction <= 1: dense output, of order 4. */
-void rodas_dense(const Path *path, double fraction, double state[]);
+/* The states at time + fraction * length, 0 <= fraction <= 1: dense output, of order 4. They lie elsewhere than the
+ * path. */
+void rodas_dense(const Path *restrict path, double fraction, double *restrict state);
 
 #endif

@@ -173,6 +173,9 @@ void model_tangent(const Variables *v, const bool holds[], bool at_start, Variab
         if (!is_given(i, at_start)) d->at[i] = (up.at[i] - down.at[i]) / (2.0 * way);
     }
 }
+void model_input_tangent(const Variables *v, const bool holds[], Variables *d) {
+    model_tangent(v, holds, false, d);
+}
 void model_adjoint(const Variables *v, const bool holds[], bool at_start, Variables *d) {
     for (int i = 0; i < N_VARIABLES; i++) {
         Variables e = {.at = {0.0}};

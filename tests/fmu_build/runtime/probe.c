@@ -2,6 +2,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "brief.h"
+#include "grk4t.h"
 #include "instance.h"
 
 #if defined _WIN32
@@ -14,6 +16,10 @@ PROBE void probe_counters(const void *component, int64_t counters[6]);
 PROBE size_t probe_state_size(void);
 PROBE void probe_state(const void *component, void *state);
 PROBE void probe_coefficients(double *gamma, double a[56], double c[56], double node[8], double d[8], double h[24]);
+PROBE void probe_brief_coefficients(double *gamma, double a[6], double c[12], double weight[4], double error[4],
+                                    double node[3], double d[4]);
+PROBE void probe_brief_steps(double start, double end, int steps, double x[], double fraction, double dense[]);
+PROBE int probe_first_not_finite(const double a[], int n);
 PROBE void probe_fixed_steps(double start, double end, int steps, double x[], double fraction, double dense[],
                              double embedded[]);
 
@@ -46,12 +52,25 @@ void probe_coefficients(double *gamma, double a[56], double c[56], double node[8
     memcpy(h, RODAS_BEND, sizeof RODAS_BEND);
 }
 
-/* Equal steps from the model's start values; dense and embedded belong to the last step. */
-void probe_fixed_steps(double start, double end, int steps, double x[], double fraction, double dense[],
-                       double embedded[])
+int probe_first_not_finite(const double a[], int n) { return first_not_finite(a, n); }
+
+void probe_brief_coefficients(double *gamma, double a[6], double c[12], double weight[4], double error[4],
+                              double node[3], double d[4])
+{
+    *gamma = GRK4T_GAMMA;
+    memcpy(a, GRK4T_A, sizeof GRK4T_A);
+    memcpy(c, GRK4T_C, sizeof GRK4T_C);
+    memcpy(weight, GRK4T_WEIGHT, sizeof GRK4T_WEIGHT);
+    memcpy(error, GRK4T_ERROR, sizeof GRK4T_ERROR);
+    memcpy(node, GRK4T_NODE, sizeof GRK4T_NODE);
+    memcpy(d, GRK4T_D, sizeof GRK4T_D);
+}
+
+typedef int Try(Rodas *r, double length, Variables *v, const bool holds[]);
+
+static void fixed_steps(Try *try, Rodas *r, double start, double end, int steps)
 {
     Variables v;
-    Rodas r;
     const bool holds[AT_LEAST_ONE(N_RELATIONS)] = {false};
     const Ramp ramp = {.moves = false};
     for (int i = 0; i < N_VARIABLES; i++) {
@@ -59,14 +78,31 @@ void probe_fixed_steps(double start, double end, int steps, double x[], double f
     }
     for (int step = 0; step < steps; step++) {
         v.time = start + (end - start) * step / steps;
-        (void)rodas_start(&r, &v, holds, &ramp);
-        (void)rodas_try(&r, (end - start) / steps, &v, holds);
-        memcpy(&v.at[FIRST_STATE], r.path.end, N_STATES * sizeof(double));
+        (void)rodas_start(r, &v, holds, &ramp);
+        (void)try(r, (end - start) / steps, &v, holds);
+        memcpy(&v.at[FIRST_STATE], r->path.end, N_STATES * sizeof(double));
     }
+}
+
+/* Equal steps from the model's start values; dense and embedded belong to the last step. */
+void probe_fixed_steps(double start, double end, int steps, double x[], double fraction, double dense[],
+                       double embedded[])
+{
+    Rodas r;
+    fixed_steps(rodas_try, &r, start, end, steps);
     rodas_bend(&r);
     rodas_dense(&r.path, fraction, dense);
     memcpy(x, r.path.end, N_STATES * sizeof(double));
     for (int i = 0; i < N_STATES; i++) {
         embedded[i] = r.path.end[i] - r.u[RODAS_STAGES - 1][i];
     }
+}
+
+void probe_brief_steps(double start, double end, int steps, double x[], double fraction, double dense[])
+{
+    Rodas r;
+    fixed_steps(brief_try, &r, start, end, steps);
+    brief_bend(&r);
+    rodas_dense(&r.path, fraction, dense);
+    memcpy(x, r.path.end, N_STATES * sizeof(double));
 }

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import ctypes as ct
-from collections.abc import Callable, Iterator
-from functools import cache
+from collections.abc import Callable
 from math import factorial
 from typing import Any
 
@@ -14,6 +13,7 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 from tests.fmu_build.runtime.hand_written import Model
+from tests.fmu_build.runtime.numerics.rosenbrock import Method, all_trees, density, strictly_lower, trees
 from tests.fmu_build.runtime.runtime_models import (
     GROWING,
     PROTHERO_ROBINSON,
@@ -25,52 +25,17 @@ from tests.fmu_build.runtime.runtime_models import (
 from tests.fmu_build.runtime.runtime_unit import OK, Library, Unit
 
 
-def trees(order: int) -> set[tuple]:
-    """Rooted trees with `order` vertices."""
-
-    @cache
-    def forests(vertices: int) -> frozenset[tuple]:
-        if vertices == 0:
-            return frozenset({()})
-        return frozenset(
-            tuple(sorted((first, *rest)))
-            for size in range(1, vertices + 1)
-            for first in trees_of(size)
-            for rest in forests(vertices - size)
-        )
-
-    @cache
-    def trees_of(vertices: int) -> frozenset[tuple]:
-        return forests(vertices - 1)
-
-    return set(trees_of(order))
-
-
-def vertices(tree: tuple) -> int:
-    return 1 + sum(vertices(t) for t in tree)
-
-
-def density(tree: tuple) -> int:
-    result = vertices(tree)
-    for t in tree:
-        result *= density(t)
-    return result
-
-
-class Coefficients:
-    """alpha, gamma (as a matrix) and b, from the transformed form: Hairer and Wanner II, equation IV.7.24."""
+class Coefficients(Method):
+    """Those of Rodas5P."""
 
     def __init__(self, library: Library) -> None:
         gamma = ct.c_double()
         sizes = (56, 56, 8, 8, 24)
         buffers = [(ct.c_double * n)() for n in sizes]
         library.dll.probe_coefficients(ct.byref(gamma), *buffers)
-        a, c, node, d, h = (np.array(b) for b in buffers)
-        a = np.hstack([a.reshape(8, 7), np.zeros((8, 1))])
-        c = np.hstack([c.reshape(8, 7), np.zeros((8, 1))])
-        self.node, self.d = node, d
-        self.gamma = np.linalg.inv(np.eye(8) / gamma.value - c)
-        self.alpha = a @ self.gamma
+        a, c, self.node, self.d, h = (np.array(b) for b in buffers)
+        a, c = (strictly_lower(table.reshape(8, 7), 8) for table in (a, c))
+        super().__init__(gamma.value, a, c)
         self.weights = a[7] + np.eye(8)[7]
         self.embedded = a[7] @ self.gamma
         self.bend = h.reshape(3, 8)
@@ -79,26 +44,10 @@ class Coefficients:
         bend = self.bend[0] + s * (self.bend[1] + s * self.bend[2])
         return np.asarray(s * (self.weights + (1 - s) * bend) @ self.gamma)
 
-    def stage_weights(self, tree: tuple) -> np.ndarray:
-        """Hairer and Wanner II, theorem IV.7.3: beta = alpha + gamma above a vertex with one branch, else alpha."""
-        matrix = self.alpha + self.gamma if len(tree) == 1 else self.alpha
-        result = np.ones(8)
-        for t in tree:
-            result = result * (matrix @ self.stage_weights(t))
-        return result
-
-    def residual(self, b: np.ndarray, tree: tuple, s: float = 1.0) -> float:
-        return float(b @ self.stage_weights(tree) - s ** vertices(tree) / density(tree))
-
 
 @pytest.fixture(scope="module")
 def coefficients(library: Callable[[Model], Library]) -> Coefficients:
     return Coefficients(library(SMOOTH))
-
-
-def all_trees(order: int) -> Iterator[tuple]:
-    for n in range(1, order + 1):
-        yield from trees(n)
 
 
 def test_number_of_trees() -> None:
@@ -128,14 +77,10 @@ def test_sums_of_rows(coefficients: Coefficients) -> None:
 
 
 def test_stiffly_accurate_and_l_stable(coefficients: Coefficients) -> None:
-    beta = coefficients.alpha + coefficients.gamma
-    np.testing.assert_allclose(coefficients.b(), beta[7], atol=1e-14)
-
-    def amplification(z: complex) -> complex:
-        return complex(1 + z * coefficients.b() @ np.linalg.solve(np.eye(8) - z * beta, np.ones(8)))
-
-    assert abs(amplification(-1e9)) < 1e-7
-    assert max(abs(amplification(1j * w)) for w in np.logspace(-3, 4, 300)) < 1 + 1e-9
+    b = coefficients.b()
+    np.testing.assert_allclose(b, coefficients.beta[7], atol=1e-14)
+    assert abs(coefficients.amplification(b, -1e9)) < 1e-7
+    assert max(abs(coefficients.amplification(b, 1j * w)) for w in np.logspace(-3, 4, 300)) < 1 + 1e-9
 
 
 def fixed_steps(library: Library, steps: int, fraction: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -1,0 +1,87 @@
+#include "brief.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "grk4t.h"
+#include "lu.h"
+
+/* f at the argument of a stage behind the first. */
+static int brief_derivative(const Rodas *r, int stage, Variables *v, const bool holds[], double f[])
+{
+    double *restrict argument = &v->at[FIRST_STATE];
+    const double *a = GRK4T_A[stage];
+    for (int i = 0; i < N_STATES; i++) {
+        const double second = stage > 1 ? a[1] * r->u[1][i] : 0.0;
+        argument[i] = r->path.state[i] + (a[0] * r->u[0][i] + second);
+    }
+    v->time = r->path.time + GRK4T_NODE[stage] * r->path.length;
+    ramp_apply(r->ramp, v);
+    return rodas_derivative(v, holds, f);
+}
+
+/* u of a stage, from f there. */
+static void brief_solve(Rodas *r, int stage, const double f[], double right[])
+{
+    const double per_length = 1.0 / r->path.length;
+    const double weight = GRK4T_D[stage] * r->path.length;
+    Vector sum = {0.0};
+    for (int j = 0; j < stage; j++) {
+        for (int i = 0; i < N_STATES; i++) {
+            sum[i] += GRK4T_C[stage][j] * r->u[j][i];
+        }
+    }
+    for (int i = 0; i < N_STATES; i++) {
+        right[i] = f[i] + sum[i] * per_length + weight * r->time_derivative[i];
+    }
+    lu_solve(r->factors, right, r->u[stage]);
+}
+
+/* The end and its error; what the solution of the first system has lost is part of it. */
+static void brief_finish(Rodas *r, const double lost[])
+{
+    Vector way = {0.0};
+    Vector error = {0.0};
+    for (int j = 0; j < GRK4T_STAGES; j++) {
+        for (int i = 0; i < N_STATES; i++) {
+            way[i] += GRK4T_WEIGHT[j] * r->u[j][i];
+            error[i] += GRK4T_ERROR[j] * r->u[j][i];
+        }
+    }
+    for (int i = 0; i < N_STATES; i++) {
+        r->path.end[i] = r->path.state[i] + way[i];
+        r->error[i] = fabs(error[i]) + fabs(GRK4T_WEIGHT[0] * lost[i]);
+    }
+}
+
+int brief_try(Rodas *r, double length, Variables *v, const bool holds[])
+{
+    Vector f;
+    Vector right;
+    Vector lost;
+    const double shift = 1.0 / (GRK4T_GAMMA * length);
+    r->path.length = length;
+    if (!lu_factorize(r->jacobian, shift, r->factors)) {
+        return 0;
+    }
+    brief_solve(r, 0, r->derivative, right);
+    lu_error(r->jacobian, shift, r->factors, right, r->u[0], lost);
+    for (int stage = 1; stage < GRK4T_ARGUMENTS; stage++) {
+        const int bad = brief_derivative(r, stage, v, holds, f);
+        if (bad != FINITE) {
+            return bad;
+        }
+        brief_solve(r, stage, f, right);
+    }
+    brief_solve(r, GRK4T_STAGES - 1, f, right);
+    brief_finish(r, lost);
+    return first_not_finite(r->path.end, N_STATES);
+}
+
+void brief_bend(Rodas *r)
+{
+    memset(r->path.bend, 0, sizeof r->path.bend);
+    for (int i = 0; i < N_STATES; i++) {
+        r->path.bend[0][i] = r->path.length * r->derivative[i] - (r->path.end[i] - r->path.state[i]);
+    }
+}

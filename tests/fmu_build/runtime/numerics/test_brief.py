@@ -1,0 +1,73 @@
+"""The method of brief steps by itself: its coefficients, its order, its stability."""
+
+from __future__ import annotations
+
+import ctypes as ct
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from tests.fmu_build.runtime.hand_written import Model
+from tests.fmu_build.runtime.numerics.rosenbrock import Method, all_trees, strictly_lower, trees
+from tests.fmu_build.runtime.numerics.test_rodas import smooth
+from tests.fmu_build.runtime.runtime_models import SMOOTH
+from tests.fmu_build.runtime.runtime_unit import Library
+
+
+class Coefficients(Method):
+    """Those of GRK4T. Its last stage has the argument of the one before."""
+
+    def __init__(self, library: Library) -> None:
+        gamma = ct.c_double()
+        buffers = [(ct.c_double * n)() for n in (6, 12, 4, 4, 3, 4)]
+        library.dll.probe_brief_coefficients(ct.byref(gamma), *buffers)
+        a, c, weight, error, self.node, self.d = (np.array(b) for b in buffers)
+        a = a.reshape(3, 2)
+        super().__init__(gamma.value, strictly_lower(a[[0, 1, 2, 2]], 4), strictly_lower(c.reshape(4, 3), 4))
+        self.b = weight @ self.gamma
+        self.embedded = (weight - error) @ self.gamma
+
+
+@pytest.fixture(scope="module")
+def coefficients(library: Callable[[Model], Library]) -> Coefficients:
+    return Coefficients(library(SMOOTH))
+
+
+def test_order_four(coefficients: Coefficients) -> None:
+    assert max(abs(coefficients.residual(coefficients.b, t)) for t in all_trees(4)) < 2e-14
+    assert max(abs(coefficients.residual(coefficients.b, t)) for t in trees(5)) > 1e-4
+
+
+def test_embedded_order_three(coefficients: Coefficients) -> None:
+    assert max(abs(coefficients.residual(coefficients.embedded, t)) for t in all_trees(3)) < 2e-14
+    assert max(abs(coefficients.residual(coefficients.embedded, t)) for t in trees(4)) > 1e-4
+
+
+def test_sums_of_rows(coefficients: Coefficients) -> None:
+    """They enter where the equations depend on time."""
+    np.testing.assert_allclose(coefficients.alpha.sum(axis=1), [*coefficients.node, coefficients.node[2]], atol=2e-14)
+    np.testing.assert_allclose(coefficients.gamma.sum(axis=1), coefficients.d, atol=2e-14)
+
+
+def test_stable_in_a_wedge(coefficients: Coefficients) -> None:
+    """Of 89.3 degrees to either side of the negative axis; what is stiff is damped by more than one half."""
+    wedge = -np.exp(1j * np.radians(89.3)) * np.logspace(-3, 6, 500)
+    assert max(abs(coefficients.amplification(coefficients.b, z)) for z in wedge) < 1.0 + 1e-4
+    assert abs(coefficients.amplification(coefficients.b, -1e9)) < 0.5
+
+
+def test_observed_order(library: Callable[[Model], Library]) -> None:
+    steps = np.array([8, 16, 32, 64])
+    end, inside = [], []
+    for n in steps:
+        x, dense = ((ct.c_double * 2)() for _ in range(2))
+        library(SMOOTH).dll.probe_brief_steps(
+            ct.c_double(0.0), ct.c_double(1.5), ct.c_int(n), x, ct.c_double(0.6), dense
+        )
+        end.append(np.abs(np.array(x) - smooth(1.5)).max())
+        inside.append(np.abs(np.array(dense) - smooth(1.5 - 0.4 * 1.5 / n)).max())
+    orders, dense_orders = (np.log2(np.array(errors[:-1]) / errors[1:]) for errors in (end, inside))
+    print("orders:", orders, "dense:", dense_orders)
+    assert 3.7 < orders[-1] < 4.5
+    assert dense_orders[-1] > 2.5  # one step's local error, of order 3, over a solution of order 4
