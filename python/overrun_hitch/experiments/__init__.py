@@ -1,3 +1,3 @@
 """One manoeuvre a module, run on the FMU."""
 
-__all__ = ["free_vibration", "limit_cycle", "linearisation", "step_brake", "stop", "torque"]
+__all__ = ["drive", "free_vibration", "limit_cycle", "linearisation", "step_brake", "stop", "torque"]

@@ -27,8 +27,8 @@ def factor(name: str, unit: str, ours: str) -> float:
 
 def _spelt(unit: str) -> str:
     """As pint reads it: products, and exponents that stand behind a unit."""
-    text = re.sub(r"\bNm\b", "N*m", unit.replace(".", "*") if re.search(r"[A-Za-z]\.", unit) else unit)
-    text = re.sub(r"(?<=[A-Za-z])(-?\d+)\b", r"**\1", text)
+    text = re.sub(r"Nm\b", "N*m", unit.replace(".", "*") if re.search(r"[A-Za-z]\.", unit) else unit)
+    text = re.sub(r"(?<=[A-Za-z])(-?[1-9])\b", r"**\1", text)
     return "dimensionless" if text in ("1", "-") else text
 
 
