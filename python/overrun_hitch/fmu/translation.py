@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -98,8 +99,8 @@ def _factor(fmu: Path, ours: str, theirs: Theirs, declared: str | None, units: M
             return factor(ours, unit, OURS[ours])
         if unit == OURS[ours] and base.factor == 1.0 and base.offset == 0.0:
             return 1.0
-        if base.offset != 0.0:
-            raise HitchError(f"{unit!r:.20} is no unit of {ours}: it has an offset")
+        if base.offset != 0.0 or not 0.0 < base.factor < math.inf:
+            raise HitchError(f"{unit!r:.20} is no unit of {ours}: factor {base.factor:g}, offset {base.offset:g}")
         powers = "*".join(f"{key}**{getattr(base, key)}" for key in ("kg", "m", "s", "A", "K", "mol", "cd"))
         return float(base.factor) * factor(ours, powers, OURS[ours])
     except HitchError as error:

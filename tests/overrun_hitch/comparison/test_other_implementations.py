@@ -18,7 +18,7 @@ from overrun_hitch.fmu.settings import Settings
 from overrun_hitch.foreign.mapping import read_mapping
 from overrun_hitch.parameters import FIGURES, HitchError
 from tests.overrun_hitch.experiments.test_step_brake import rewritten
-from tests.overrun_hitch.fmu.strangers import FAULTS, HANGS, stranger
+from tests.overrun_hitch.fmu.strangers import FAULTS, stranger
 from tests.overrun_hitch.foreign.hand_made import hand_made
 
 
@@ -33,6 +33,8 @@ def test_a_hand_made_fmu_agrees_in_all_figures_and_a_stiffer_one_in_none(car_tra
     files = [Asked(fmu, {}, None) for fmu in (car_trailer_fmu, hand_made(), hand_made(1.01))]
     for check in checked(*files, figures=list(FIGURES)):
         hand, stiffer = check.comparisons
+        farthest = max(row.largest / row.range for row in hand.distances)
+        print(f"{check.scenario.name}: hand-made within {farthest:.1e} of a range, stiffer: {stiffer.differing}")
         assert hand.failure == "" and hand.differing == [] and hand.not_compared == []
         assert {"F_hitch", "slip_trailer"} <= set(stiffer.differing)
 
@@ -137,16 +139,16 @@ def test_one_that_fails_is_one_line_and_the_others_are_judged(
     broken = tmp_path / "broken.fmu"
     broken.write_text("no archive")
     crashes = stranger(car_trailer_fmu, tmp_path / "crashes.fmu", do_step=f"if (time > 1.0) {{ {FAULTS} }}")
-    hangs = stranger(car_trailer_fmu, tmp_path / "hangs.fmu", do_step=f"if (time > 1.0) {{ {HANGS} }}")
+    hangs = stranger(car_trailer_fmu, tmp_path / "hangs.fmu", do_step="if (time > 1.0) for (;;) pause();")
     fmus = [car_trailer_fmu, broken, hangs, car_trailer_fmu, crashes]
-    options = ["--figure", "8", "--figure", "10", "--time-limit", "1", "--output", str(tmp_path / "out")]
+    options = ["--figure", "8", "--figure", "10", "--time-limit", "4", "--output", str(tmp_path / "out")]
     junit = tmp_path / "verdict.xml"
     assert cli.main(["crosscheck", *map(str, fmus), *options, "--junit", str(junit)]) == 2
     out = capsys.readouterr().out
     verdicts = [line for line in out.splitlines() if line[1:].startswith((" agrees", " differs", " could"))]
     both = "in figure 8, figure 10"
     assert verdicts[0].startswith(f"B could not be compared {both}: {broken} is broken")
-    assert verdicts[1].startswith(f"C could not be compared {both}: {hangs}: did not finish within 1 s")
+    assert verdicts[1].startswith(f"C could not be compared {both}: {hangs}: did not finish within 4 s")
     assert verdicts[2] == f"D agrees with A {both}"
     assert verdicts[3].startswith(f"E could not be compared {both}: {crashes}: crashed: segmentation fault")
     suites = etree.parse(str(junit)).getroot()

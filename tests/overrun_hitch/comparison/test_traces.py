@@ -142,6 +142,7 @@ def test_a_noisy_trace_with_a_clock_of_its_own(
     assert judged(capsys, tmp_path, *asked)[0] == 1  # who does not say that it was measured
     status, _ = judged(capsys, tmp_path, *asked, "--measured", "--set", "k=6500")
     assert status == 1
+    print(f"shift {alignment['shift']:.4f} +- {alignment['error']:.1e} s, frequency {frequency['difference']:+.1e} Hz")
 
 
 @pytest.mark.full
@@ -176,19 +177,34 @@ def test_traces_against_theory_and_each_other(
     assert status == 0
 
 
+def test_ours_by_its_name_and_notes_on_what_was_guessed(
+    oracle: Columns, car_trailer_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    monkeypatch.setattr("overrun_hitch.commands.crosscheck.our_fmu", lambda _: car_trailer_fmu)
+    trace = tmp_path / "a.csv"
+    pd.DataFrame({"time": oracle["time"], "F_hitch": -oracle["F_hitch"]}).to_csv(trace, index=False)
+    command = ["crosscheck", "ours", str(trace), "--figure", "8", "--output", str(tmp_path / "out")]
+    assert cli.main(command) == 1
+    out = capsys.readouterr().out
+    assert f"A  {car_trailer_fmu}\n" in out
+    assert f"B  {trace}\n   gives no unit, taken as ours: time, F_hitch\n" in out
+    assert "B differs from A in figure 8: F_hitch; not compared: v_car, " in out
+    assert "   F_hitch: opposite sign?\n" in out
+
+
 def test_a_profile_instead_of_a_step(
     car_trailer_fmus: dict[int, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """A ramp with a jump, followed by slopes of the input (co-simulation, FMI 2) and held in between (the others)."""
     profile = tmp_path / "ramp.csv"
     profile.write_text("time [ms];brake_torque [kN.m]\n0;0,2\n500,5;0,8\n1000;0,8\n1000;1,0\n")
-    asked = [car_trailer_fmus[2], car_trailer_fmus[3], "--figure", "8", "--duration", "2", "--step", "0.0005"]
-    status, _ = judged(capsys, tmp_path, *asked, "--profile", profile)
+    fmus = [car_trailer_fmus[2], car_trailer_fmus[3], car_trailer_fmus[2]]
+    options = ["--type", "C=me", "--figure", "8", "--duration", "1.2", "--step", "0.0005", "--profile", profile]
+    status, _ = judged(capsys, tmp_path, *fmus, *options)
     assert status == 0
     document = json.loads((tmp_path / "out" / "crosscheck.json").read_text(encoding="utf-8"))
     assert document["figures"][0]["brake_torque"]["time"] == pytest.approx([0.0, 0.5005, 1.0, 1.0])
-    status, _ = judged(capsys, tmp_path, *asked, "--profile", profile, "--type", "me")
-    assert status == 0
 
 
 BAD = [

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.io import savemat
 
@@ -59,10 +59,15 @@ def test_units_as_people_write_them(unit: str, ours: str, expected: float) -> No
     assert factor("x", unit, ours) == pytest.approx(expected, rel=1e-12)
 
 
-@given(st.text(max_size=20))
-def test_what_is_no_unit_is_one_line(unit: str) -> None:
+@given(st.text(max_size=20) | st.text("9*^()N. m-e", max_size=40))
+@example("9**9**9")
+@example("N^9^9^9")
+@example("((9**99)*1)**99")
+@example("N**(9**9**9)")
+def test_what_is_no_unit_is_one_line_and_soon(unit: str) -> None:
+    """Not computed until the machine is full, either."""
     try:
-        assert np.isfinite(factor("F_hitch", unit, "N"))
+        assert isinstance(factor("F_hitch", unit, "N"), float)
     except HitchError as error:
         assert "\n" not in str(error) and "is no unit of F_hitch; allowed: N " in str(error)
 
