@@ -222,7 +222,7 @@ def test_a_profile_instead_of_a_step(
     car_trailer_fmus: dict[int, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """A ramp with a jump, followed by slopes of the input (co-simulation, FMI 2) and held in between (the others)."""
-    profile = tmp_path / "ramp.csv"
+    profile = tmp_path / "$^$ [red].csv"  # a name that is neither a formula nor markup
     profile.write_text("time [ms];brake_torque [kN.m]\n0;0,2\n500,5;0,8\n1000;0,8\n1000;1,0\n")
     fmus = [car_trailer_fmus[2], car_trailer_fmus[3], car_trailer_fmus[2]]
     options = ["--type", "C=me", "--figure", "8", "--duration", "1.2", "--step", "0.0005", "--profile", profile]
