@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
@@ -23,6 +24,7 @@ from overrun_hitch.commands.options import (
     name_with,
 )
 from overrun_hitch.parameters import CASES, FIGURES, HitchError, Scenario, named
+from overrun_hitch.show.words import printable
 
 
 def run(
@@ -62,7 +64,10 @@ def run(
         with terminal.patience("Braking"):
             result = brake(unit, scenario, settings)
             rows = compare(result, brake(unit, car_alone(scenario), settings))
+            guessed = unit.identity.notes
     hint(scenario.parameters, scenario.brake_torque)
+    for note in guessed:
+        print(f"hint: {printable(f'{unit.name} {note}')}", file=sys.stderr)
     stem = output / file_stem(scenario.name)
     table = stem.with_name(f"{stem.name}.csv")
     with terminal.patience("Drawing"):

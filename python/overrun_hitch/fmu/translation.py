@@ -10,7 +10,7 @@ from typing import Any
 
 from overrun_hitch.foreign.mapping import OURS, Names, Theirs
 from overrun_hitch.foreign.units import factor
-from overrun_hitch.parameters import DATUM, HitchError, Parameters, unknown, with_unit
+from overrun_hitch.parameters import COUNTS_FROM, DATUM, HitchError, Parameters, unknown, with_unit
 from overrun_hitch.results import VARIABLES
 
 REALS = ("Real", "Float64")
@@ -40,11 +40,13 @@ class Translation:
     def settings(self, name: str, values: Mapping[str, float]) -> tuple[list[int], list[float]]:
         """References and their values of inputs and parameters in our units; `name` is the FMU's, for messages.
 
-        A parameter that is not there counts as having the default. HitchError for one that has not.
+        A parameter that is not there counts as having the default. HitchError for one that has not, and counts.
         """
         for key in values.keys() - self.channels.keys():
             default = getattr(DATUM, key, None)
-            if values[key] != default:
+            limit = COUNTS_FROM.get(key, key)
+            is_out_of_reach = limit != key and values[limit] == getattr(DATUM, limit)
+            if values[key] != default and not is_out_of_reach:
                 value, rest = (with_unit(v, OURS[key]) for v in (values[key], default or 0.0))
                 raise HitchError(f"{name} has no {key}, which is {value} in this run; without it allowed: {rest}")
         found = {key: self.channels[key] for key in values if key in self.channels}

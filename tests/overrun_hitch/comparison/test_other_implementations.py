@@ -13,6 +13,7 @@ from overrun_hitch import cli
 from overrun_hitch.comparison.crosscheck import Crosscheck, crosscheck
 from overrun_hitch.comparison.distances import Allowed
 from overrun_hitch.comparison.sources import Asked, Manoeuvre, opened_sources
+from overrun_hitch.experiments.step_brake import car_alone
 from overrun_hitch.fmu.opening import opened_foreign
 from overrun_hitch.fmu.settings import Settings
 from overrun_hitch.foreign.mapping import read_mapping
@@ -74,9 +75,13 @@ def test_other_kinds_of_the_same_unit_agree(car_trailer_fmus: dict[int, Path]) -
 
 
 @pytest.mark.full
-def test_a_run_of_another_kind(car_trailer_fmus: dict[int, Path], tmp_path: Path) -> None:
-    options = ["--fmu", str(car_trailer_fmus[3]), "--type", "me", "--output", str(tmp_path)]
-    assert cli.main(["run", *options]) == 0
+def test_runs_of_another_kind(
+    car_trailer_fmus: dict[int, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.main(["run", "--fmu", str(car_trailer_fmus[3]), "--type", "me", "--output", str(tmp_path)]) == 0
+    assert capsys.readouterr().err == ""
+    assert cli.main(["run", "--fmu", str(hand_made()), "--output", str(tmp_path)]) == 0
+    assert "hint: PaperSlave.fmu declares no unit, taken as ours: all of them\n" in capsys.readouterr().err
 
 
 def test_a_parameter_that_is_not_there_counts_as_neutral(car_trailer_fmu: Path, tmp_path: Path) -> None:
@@ -87,6 +92,16 @@ def test_a_parameter_that_is_not_there_counts_as_neutral(car_trailer_fmu: Path, 
         assert unit.identity.notes == ("has no parameter eps: taken as at their defaults",)
         unit.start(FIGURES["8"].parameters, torque, 1e-6)
         unit.start(FIGURES["10"].parameters, torque, 1e-6)
+
+
+def test_a_stiffness_that_is_out_of_reach_does_not_count(car_trailer_fmu: Path, tmp_path: Path) -> None:
+    """As `hitch run` sets all of them to 0 for the car alone."""
+    other, torque, parameters = tmp_path / "other.fmu", {"brake_torque": 1000.0}, FIGURES["8"].parameters
+    rewritten(car_trailer_fmu, other, "modelDescription.xml", b'name="k_3"', b'name="k_4"')
+    with opened_foreign(other, {}, None) as unit:
+        unit.start(car_alone(FIGURES["8"]).parameters, torque, 1e-6)
+        with pytest.raises(HitchError, match=r"has no k_3, which is 1 N/m in this run; without it allowed: 5480 N/m"):
+            unit.start(parameters.changed({"k_3": 1.0, "x_3": 0.1}), torque, 1e-6)
 
 
 def test_names_signs_and_units_of_others(car_trailer_fmu: Path, tmp_path: Path) -> None:
