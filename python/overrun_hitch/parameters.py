@@ -257,6 +257,8 @@ class Scenario(Quantities):
 
 
 PIECES = ("F_0", "x_2", "x_3", "travel")  # where the spring's stiffness changes, beside the clearance
+# What does not count while the other, which says from where on, has its default: that is out of reach.
+COUNTS_FROM: Mapping[str, str] = {"k_2": "x_2", "k_3": "x_3", "k_buffer": "travel", "mu_slide": "mu"}
 
 # Section 7 of the paper fixes car and trailer; k, r, C are its free choices, here those of case ii in figure 8.
 DATUM = Parameters()

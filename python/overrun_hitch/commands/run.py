@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -23,6 +24,7 @@ from overrun_hitch.commands.options import (
 )
 from overrun_hitch.parameters import CASES, FIGURES
 from overrun_hitch.scenarios import asked_scenario
+from overrun_hitch.show.words import printable
 
 
 def run(
@@ -69,7 +71,10 @@ def run(
             given: dict[str, Any] = {"torque": read_profile(profile) if profile else None, "grade": grade}
             result = brake(unit, scenario, settings, **given)
             rows = compare(result, brake(unit, car_alone(scenario), settings, **given))
+            guessed = unit.identity.notes
     hint(scenario.parameters, scenario.brake_torque)
+    for note in guessed:
+        print(f"hint: {printable(f'{unit.name} {note}')}", file=sys.stderr)
     stem = output / file_stem(scenario.name)
     table = stem.with_name(f"{stem.name}.csv")
     with terminal.patience("Drawing"):

@@ -52,7 +52,7 @@ def draw(check: Crosscheck, names: list[str], allowed: Allowed) -> Figure:
     time, a = values(reference, "time"), values(reference, "compression")
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.4, 5.2), layout="constrained")
-        figure.suptitle(f"{check.scenario.name[:1].upper()}{check.scenario.name[1:]}", fontsize=10)
+        figure.suptitle(_plain(f"{check.scenario.name[:1].upper()}{check.scenario.name[1:]}"), fontsize=10)
         above, below = figure.subplots(2, 1, sharex=True)
         if np.isfinite(a).all():
             funnel = funnel_around(reference, a, "compression", allowed)
@@ -90,5 +90,8 @@ def _limit(axes: Axes, around: Floats, farthest: float) -> None:
 
 
 def _short(name: str) -> str:
-    shortened = name if len(name) <= 32 else f"{name[:14]}...{name[-15:]}"
-    return printable(shortened).replace("$", r"\$")  # matplotlib would set it as a formula
+    return _plain(name if len(name) <= 32 else f"{name[:14]}...{name[-15:]}")
+
+
+def _plain(words: str) -> str:
+    return printable(words).replace("$", r"\$")  # matplotlib would set it as a formula

@@ -96,7 +96,8 @@ def _show_verdict(out: Console, label: str, comparisons: dict[str, Comparison]) 
 def _show_figure(out: Console, check: Crosscheck) -> None:
     last = check.scenario.duration if check.reference is None else float(values(check.reference, "time")[-1])
     speed = check.scenario.parameters.V_0
-    out.print(f"\n{check.scenario.name}: {check.scenario.brake_torque:g} N.m at {speed:g} m/s, {last:g} s")
+    out.print()
+    _say(out, f"{check.scenario.name}: {check.scenario.brake_torque:g} N.m at {speed:g} m/s, {last:g} s")
     distances = [(c.label, row) for c in check.comparisons for row in c.distances if not row.not_judged]
     numbers = [(c.label, judged) for c in check.comparisons for judged in (*c.numbers, *_farthest(c.passages))]
     if distances:

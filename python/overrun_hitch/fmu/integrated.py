@@ -12,6 +12,7 @@ from typing import Any
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Error
 
+from overrun_hitch.fmu.messages import one_line
 from overrun_hitch.parameters import HitchError
 
 MOST_STEPS = 100_000  # between two communication points
@@ -49,7 +50,7 @@ class Integrated:
     def exitInitializationMode(self) -> None:
         """As a slave's; the start's events are over afterwards."""
         self._unit.exitInitializationMode()
-        self._solver = None
+        self._solver = self._fault = None
         self._settle()
         self._solver = self._made_solver()
         self._is_disturbed = False
@@ -61,9 +62,7 @@ class Integrated:
             self._solver.reset(time)
             self._is_disturbed = False
         while time < end:
-            is_event, _, time = self._solver.step(time, min(end, self._next_event))
-            if self._fault:
-                raise self._fault
+            is_event, time = self._stepped(time, min(end, self._next_event))
             self._unit.setTime(time)
             if self._tells_steps:
                 asks, ends = self._unit.completedIntegratorStep()
@@ -73,6 +72,16 @@ class Integrated:
                 self._unit.enterEventMode()
                 self._settle()
                 self._solver.reset(time)
+
+    def _stepped(self, time: float, end: float) -> tuple[bool, float]:
+        """Whether something switched on the way, and the time then."""
+        try:
+            is_event, _, then = self._solver.step(time, end)
+        except Exception as error:  # fmpy's RuntimeError with CVODE's words, or a bare Exception
+            raise self._fault or HitchError(f"CVODE cannot go on from t = {time:g} s: {one_line(error)}") from None
+        if self._fault:
+            raise self._fault
+        return bool(is_event), float(then)
 
     def freeInstance(self) -> None:
         """As a slave's."""

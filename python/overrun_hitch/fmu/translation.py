@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,7 +10,7 @@ from typing import Any
 
 from overrun_hitch.foreign.mapping import OURS, Names, Theirs
 from overrun_hitch.foreign.units import factor
-from overrun_hitch.parameters import DATUM, HitchError, Parameters, unknown, with_unit
+from overrun_hitch.parameters import COUNTS_FROM, DATUM, HitchError, Parameters, unknown, with_unit
 from overrun_hitch.results import VARIABLES
 
 REALS = ("Real", "Float64")
@@ -39,11 +40,13 @@ class Translation:
     def settings(self, name: str, values: Mapping[str, float]) -> tuple[list[int], list[float]]:
         """References and their values of inputs and parameters in our units; `name` is the FMU's, for messages.
 
-        A parameter that is not there counts as having the default. HitchError for one that has not.
+        A parameter that is not there counts as having the default. HitchError for one that has not, and counts.
         """
         for key in values.keys() - self.channels.keys():
             default = getattr(DATUM, key, None)
-            if values[key] != default:
+            limit = COUNTS_FROM.get(key, key)
+            is_out_of_reach = limit != key and values[limit] == getattr(DATUM, limit)
+            if values[key] != default and not is_out_of_reach:
                 value, rest = (with_unit(v, OURS[key]) for v in (values[key], default or 0.0))
                 raise HitchError(f"{name} has no {key}, which is {value} in this run; without it allowed: {rest}")
         found = {key: self.channels[key] for key in values if key in self.channels}
@@ -98,8 +101,8 @@ def _factor(fmu: Path, ours: str, theirs: Theirs, declared: str | None, units: M
             return factor(ours, unit, OURS[ours])
         if unit == OURS[ours] and base.factor == 1.0 and base.offset == 0.0:
             return 1.0
-        if base.offset != 0.0:
-            raise HitchError(f"{unit!r:.20} is no unit of {ours}: it has an offset")
+        if base.offset != 0.0 or not 0.0 < base.factor < math.inf:
+            raise HitchError(f"{unit!r:.20} is no unit of {ours}: factor {base.factor:g}, offset {base.offset:g}")
         powers = "*".join(f"{key}**{getattr(base, key)}" for key in ("kg", "m", "s", "A", "K", "mol", "cd"))
         return float(base.factor) * factor(ours, powers, OURS[ours])
     except HitchError as error:

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import math
 import re
 from functools import cache
 from typing import Any
 
 from overrun_hitch.parameters import HitchError
+
+LONGEST = 80  # characters
+# A power of anything but a name or a number, or to more than two digits: pint would compute 9**9**9 to its last one.
+EXCESSIVE = re.compile(r"\)\s*\*\*|\*\*(?!\s*\(?\s*[-+]?\s*\d{1,2}(?![\d.eE_])\s*\)?(?!\s*\*\*))|\d{10}")
 
 
 def factor(name: str, unit: str, ours: str) -> float:
@@ -18,7 +23,10 @@ def factor(name: str, unit: str, ours: str) -> float:
         return 1.0
     try:
         asked, wanted = (_registry().Quantity(1.0, _spelt(text)) for text in (unit, ours))
-        return float(asked.to(wanted.units).magnitude)
+        size = float(asked.to(wanted.units).magnitude)
+        if 0.0 < size < math.inf:
+            return size
+        raise ValueError(size)
     except Exception:  # pint raises its parser's and the tokenizer's errors as well as its own
         raise HitchError(
             f"{unit!r:.20} is no unit of {name}; allowed: {ours} and what can be converted to it"
@@ -27,8 +35,11 @@ def factor(name: str, unit: str, ours: str) -> float:
 
 def _spelt(unit: str) -> str:
     """As pint reads it: products, and exponents that stand behind a unit."""
-    text = re.sub(r"\bNm\b", "N*m", unit.replace(".", "*") if re.search(r"[A-Za-z]\.", unit) else unit)
-    text = re.sub(r"(?<=[A-Za-z])(-?\d+)\b", r"**\1", text)
+    text = re.sub(r"Nm\b", "N*m", unit.replace(".", "*") if re.search(r"[A-Za-z]\.", unit) else unit)
+    text = re.sub(r"(?<=[A-Za-z])(-?[1-9])\b", r"**\1", text)
+    text = text.replace("^", "**")
+    if len(text) > LONGEST or EXCESSIVE.search(text):
+        raise ValueError(text)
     return "dimensionless" if text in ("1", "-") else text
 
 
