@@ -1,7 +1,7 @@
 """What mkdocs does not find in docs/: pages that lie elsewhere or are made, and the examples, which are run.
 
-The commands' page is their own help. Examples (`>>>`) of a page run in a folder of their own when the site is built; a page
-shows the pictures that they leave there.
+The commands' page is their own help. Where a page's examples (`>>>`) save pictures, they run in a folder of their own
+when the site is built, and the page shows these.
 """
 
 from __future__ import annotations
@@ -97,5 +97,5 @@ def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Fil
 
 
 def _target(page: str, link: str) -> str:
-    """The file that a page of the repository links, both from the repository's root."""
+    """The file that a page links, both as paths from the repository's root."""
     return posixpath.normpath(posixpath.join(posixpath.dirname(page), link))
