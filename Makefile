@@ -23,7 +23,7 @@ report: $(READY)  ## recompute all figures and claims of the paper into one page
 	$(BIN)/hitch report
 
 docs: $(DOCS_READY)  ## make the documentation site, its examples run (build/site/index.html)
-	$(BIN)/python -m mkdocs build --strict --quiet
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict --quiet
 
 test: $(READY)  ## run the tests, on all cores: every kind of check, long grids sampled
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not full and not platforms"

@@ -21,6 +21,7 @@ from tests.conftest import ROOT
 from tests.sampling import sampled
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+IN_BRIEF = [ROOT / "docs" / "model.md", ROOT / "docs" / "sweep.md", ROOT / "README.md"]  # the others are `full`
 COMMANDS = {"hitch": ["-m", "overrun_hitch"], "make": ["-m", "overrun_hitch"], "python": []}  # make run: hitch run
 MADE = ("commands.md", "first-run.svg", "four-dampers.svg")  # when the site is built
 CONSOLE = re.compile(r"^```console\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -35,7 +36,7 @@ def named(page: Path) -> str:
     return page.name
 
 
-@pytest.mark.parametrize("page", sampled(having(">>> import overrun_hitch"), PAGES[:1]), ids=named)
+@pytest.mark.parametrize("page", sampled(having(">>> import overrun_hitch"), IN_BRIEF), ids=named)
 def test_examples(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     assert run_examples(page) > 1
@@ -54,7 +55,7 @@ def sessions(page: Path) -> list[tuple[str, str]]:
     return [(command, output) for command, output in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", blocks, re.MULTILINE)]
 
 
-@pytest.mark.parametrize("page", sampled(having("```console"), [ROOT / "docs" / "model.md"]), ids=named)
+@pytest.mark.parametrize("page", sampled(having("```console"), IN_BRIEF), ids=named)
 def test_commands(page: Path, tmp_path: Path) -> None:
     for name, text in TOML.findall(page.read_text(encoding="utf-8")):
         (tmp_path / name).write_text(text, encoding="utf-8")
