@@ -1,9 +1,10 @@
 .DEFAULT_GOAL := help
-.PHONY: help run report test test-all test-platforms fuzz fmu fmu-all ssp dist bench stops sanitize lint format lock clean
+.PHONY: help run report docs test test-all test-platforms fuzz fmu fmu-all ssp dist bench stops sanitize lint format lock clean
 
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
+DOCS_READY := .venv/docs-ready
 UNITS := CarTrailer Car Trailer Hitch Bench
 FMUS := $(foreach unit,$(UNITS),build/fmi2/$(unit).fmu build/fmi3/$(unit).fmu)
 READY_MADE := python/overrun_hitch/fmus
@@ -20,6 +21,9 @@ run: $(READY)  ## build what is missing, brake, compare with theory, draw (build
 
 report: $(READY)  ## recompute all figures and claims of the paper into one page (build/report/index.html)
 	$(BIN)/hitch report
+
+docs: $(DOCS_READY)  ## make the documentation site, its examples run (build/site/index.html)
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict --quiet
 
 test: $(READY)  ## run the tests, on all cores: every kind of check, long grids sampled
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not full and not platforms"
@@ -81,8 +85,10 @@ format: $(READY)  ## format Python and C
 	$(BIN)/clang-format -i $(C_FILES)
 
 lock: $(READY)  ## renew the pinned versions in requirements.txt
-	$(BIN)/uv pip compile --quiet --universal --python-version 3.10 --all-extras --upgrade \
+	$(BIN)/uv pip compile --quiet --universal --python-version 3.10 --extra all --extra dev --upgrade \
 	    --no-header --no-annotate pyproject.toml -o requirements.txt
+	$(BIN)/uv pip compile --quiet --universal --python-version 3.10 --group docs --upgrade --constraint requirements.txt \
+	    --no-header --no-annotate -o requirements-docs.txt
 
 clean:  ## remove what was built; keep .venv
 	rm -rf build dist $(READY_MADE) .pytest_cache .mypy_cache .ruff_cache .hypothesis
@@ -94,4 +100,8 @@ $(READY): requirements.txt pyproject.toml
 	    $(BIN)/uv pip install --quiet --compile-bytecode --python $(BIN)/python -r requirements.txt || \
 	    $(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.txt
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	touch $@
+
+$(DOCS_READY): $(READY) requirements-docs.txt
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements-docs.txt
 	touch $@

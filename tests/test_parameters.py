@@ -76,12 +76,6 @@ def test_names_in_the_order_in_which_they_are_declared(unit: Unit) -> None:
     assert [v.name for v in unit.description.modelVariables if v.causality == "parameter"] == NAMES
 
 
-def test_the_readme_names_every_parameter_with_its_unit() -> None:
-    (row,) = re.findall(r"^\| parameters \| (.*) \|$", (ROOT / "README.md").read_text(encoding="utf-8"), re.MULTILINE)
-    told = [(name, unit) for names, unit in re.findall(r"`([^`]*)` \(([^)]*)\)", row) for name in names.split()]
-    assert told == [(name, Parameters.unit(name)) for name in NAMES]
-
-
 def test_units_and_defaults_in_the_docs() -> None:
     text = (ROOT / "docs" / "parameters.md").read_text(encoding="utf-8")
     rows = re.findall(

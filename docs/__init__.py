@@ -1,0 +1,1 @@
+"""The documentation: its pages, and what mkdocs needs to make a site of them."""
