@@ -6,10 +6,10 @@ from typing import Annotated, Any
 
 import typer
 
-from overrun_hitch.parameters import CASES, DATUM, FIGURES, Parameters, with_unit
+from overrun_hitch.parameters import CASES, DATUM, FIGURES, Parameters, Scenario, with_unit
 
 SPEEDS = (10.0, 40.0)  # m/s, the paper's range
-FREE = ("k", "r", "C")  # the designer's choices
+FREE = ("k", "r")  # the designer's choices
 
 
 def cases(
@@ -42,11 +42,15 @@ def cases(
          *(f"{value:.1f}" for value in row["C_crit"].values()), _differences(CASES[name]))
         for name, row in found.items()
     ]  # fmt: skip
+
+    def differs(scenario: Scenario, name: str) -> bool:
+        return bool(getattr(scenario.parameters, name) != getattr(DATUM, name))
+
     out = console()
     out.print("the nine cases: below C_crit the combination shunts by itself")
     out.print(table(columns, rows))
     out.print("\nthe step brakes: case ii at 40 m/s, 1000 N.m on the car's wheels for 6 s")
-    shown = ("C", "k_t", "eps")
+    shown = [name for name in Parameters.model_fields if any(differs(each, name) for each in FIGURES.values())]
     brakes = [(name, *(f"{getattr(each.parameters, key):g}" for key in shown)) for name, each in FIGURES.items()]
     out.print(table([Column("figure"), *(Numbers(key, Parameters.unit(key)) for key in shown)], brakes))
     return 0

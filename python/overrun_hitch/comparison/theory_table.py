@@ -21,7 +21,7 @@ def show(scenario: Scenario, result: xr.Dataset, rows: Sequence[Judged], paths: 
     """Print theory against simulation, what there is to say about it, and the files written."""
     out = console()
     last = float(result["time"][-1])
-    torque = "braked from" if result.attrs["profile"] else f"{scenario.brake_torque:g} N.m at"
+    torque = "braked from" if result.attrs.get("profile") else f"{scenario.brake_torque:g} N.m at"
     out.print(f"{scenario.name}: {torque} {scenario.parameters.V_0:g} m/s, {last:g} s")
     show_rows(out, COLUMNS, map(_cells, rows), map(_sentence, rows))
     for reason in dict.fromkeys(row.not_judged for row in rows if row.not_judged):

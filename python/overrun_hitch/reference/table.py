@@ -73,7 +73,7 @@ def parameters(one: Trajectory) -> bytes:
 def mapping() -> bytes:
     """For --map: every name as it is here, for who has others to put theirs in."""
     described = {
-        "time": "time", "brake_torque": Scenario.description("brake_torque"),
+        "time": "time", "brake_torque": Scenario.description("brake_torque"), "grade": "rise of the road over its run",
         **{name: text for name, (_, text) in VARIABLES.items()},
     }  # fmt: skip
     lines = ["# Put in what yours are called; a table that is left out stands for the same name."]

@@ -13,7 +13,9 @@ import pytest
 import xarray as xr
 
 from overrun_hitch import cli
-from overrun_hitch.comparison.crosscheck import Allowed, compare_units
+from overrun_hitch.comparison.crosscheck import crosscheck
+from overrun_hitch.comparison.distances import Allowed
+from overrun_hitch.comparison.sources import Manoeuvre, UnitSource
 from overrun_hitch.fmu.opening import opened_unit
 from overrun_hitch.fmu.settings import Settings
 from overrun_hitch.parameters import FIGURES, Parameters
@@ -52,7 +54,7 @@ def fmus(car_trailer_fmu: Path, pair_fmus: dict[int, dict[str, Path]], monkeypat
     ours = {"CarTrailer": car_trailer_fmu, **pair_fmus[2]}
     for command in ("couple", "fit"):
         monkeypatch.setattr(f"overrun_hitch.commands.{command}.our_fmu", lambda fmu: (
-            ours[fmu.stem] if fmu.stem in ours else kept_fmus("Systems.Bench", fmi=2)["Bench"]
+            ours[fmu.stem] if fmu.stem in ours else kept_fmus(f"Systems.{fmu.stem}", fmi=2)[fmu.stem]
         ))  # fmt: skip
     for command in ("run", "optimise", "sensitivity"):
         monkeypatch.setattr(f"overrun_hitch.commands.{command}.chosen_fmu", lambda _: car_trailer_fmu)
@@ -124,7 +126,7 @@ def test_a_crosscheck(name: str, car_trailer_fmu: Path) -> None:
     changes = dict(pair.split("=") for pair in f"{name}={AWAY[name]}".split(","))
     scenario = FIGURES["8"].changed(parameters=FIGURES["8"].parameters.changed(changes))
     with opened_unit(car_trailer_fmu) as one, opened_unit(car_trailer_fmu) as other:
-        found = compare_units(scenario, [one, other], Settings(), Allowed())
+        found = crosscheck(Manoeuvre(scenario, Settings()), [UnitSource(one), UnitSource(other)], Allowed())
     for comparison in found.comparisons:
         assert comparison.differing == 0 or comparison.differing == []
         assert all(row.not_judged for row in comparison.numbers if not np.isfinite(row.difference))

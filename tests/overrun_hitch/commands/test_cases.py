@@ -29,7 +29,7 @@ def test_the_tables(capsys: pytest.CaptureFixture[str]) -> None:
     lines = capsys.readouterr().out.splitlines()
     row = next(line.split() for line in lines if line.startswith("ii "))
     assert row == ["ii", "5480", "2.975", "0.950", "30.2", "120.7"]
-    assert next(line.split() for line in lines if line.startswith("10 ")) == ["10", "500", "548000", "0.1"]
+    assert next(line.split() for line in lines if line.startswith("10 ")) == ["10", "548000", "500", "0.1"]
     assert next(line for line in lines if line.startswith("ix ")).rstrip().endswith("R_t = 0.28 m")
 
 

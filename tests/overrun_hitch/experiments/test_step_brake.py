@@ -7,6 +7,7 @@ import os
 import tempfile
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import fmpy
 import numpy as np
@@ -198,9 +199,9 @@ def test_the_command_writes_what_it_says(
 def test_disagreement_is_status_1(car_trailer_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """With theory told another damper than the FMU has."""
 
-    def other_damper(unit: AnyUnit, scenario: Scenario, settings: Settings) -> object:
+    def other_damper(unit: AnyUnit, scenario: Scenario, settings: Settings, **given: Any) -> object:
         changed = scenario.changed(parameters=scenario.parameters.changed({"C": 1.1 * scenario.parameters.C}))
-        return brake(unit, changed, settings).assign_attrs(C=scenario.parameters.C)
+        return brake(unit, changed, settings, **given).assign_attrs(C=scenario.parameters.C)
 
     monkeypatch.setattr("overrun_hitch.experiments.step_brake.brake", other_damper)
     assert cli.main(["run", "--fmu", str(car_trailer_fmu), "--output", str(tmp_path)]) == 1

@@ -330,6 +330,6 @@ def test_a_browser_opens_it_without_complaint(text: str, tmp_path: Path) -> None
     assert "CONSOLE" not in done.stderr
     page = Page(done.stdout.partition("\n")[2] if done.stdout.startswith("\n") else done.stdout)
     drawn = [attributes for tag, attributes in page.tags if tag == "svg"]
-    assert len(drawn) == len(PICTURES) + 3
+    assert len(drawn) == len(PICTURES) + 4  # beyond the paper: boundary, cycles, stops, device
     assert sum(tag == "path" for tag, _ in page.tags) > 1000
     assert "13 of 13 claims" in page.texts["summary"]
