@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from overrun_hitch.foreign.mapping import OURS
+from overrun_hitch.foreign.mapping import GRADE, OURS
 from overrun_hitch.foreign.units import factor
 from overrun_hitch.parameters import HitchError, Parameters, Scenario
 from overrun_hitch.results import VARIABLES
@@ -43,7 +43,8 @@ def proposals(candidates: Iterable[Candidate]) -> Iterator[Proposal]:
     """For all of our variables of the candidates' kinds; without candidates where none is likely."""
     there = list(candidates)
     columns = any(not one.kind for one in there)
-    wanted = [("time", "", "time")] if columns else [("brake_torque", "input", Scenario.description("brake_torque"))]
+    inputs = [("brake_torque", "input", Scenario.description("brake_torque")), ("grade", "input", GRADE)]
+    wanted = [("time", "", "time")] if columns else inputs
     wanted += [(name, "" if columns else "output", text) for name, (_, text) in VARIABLES.items()]
     if not columns:
         wanted += [(name, "parameter", Parameters.description(name)) for name in Parameters.model_fields]

@@ -18,6 +18,7 @@ from overrun_hitch.parameters import HitchError, Parameters, Scenario, unknown
 from overrun_hitch.results import VARIABLES
 from overrun_hitch.toml_file import read_toml
 
+GRADE = "rise of the road over its run"
 # All that may have another name elsewhere, with its unit here.
 OURS: Mapping[str, str] = MappingProxyType(
     {

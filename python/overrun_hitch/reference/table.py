@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from overrun_hitch.foreign.mapping import OURS
+from overrun_hitch.foreign.mapping import GRADE, OURS
 from overrun_hitch.parameters import Parameters, Scenario
 from overrun_hitch.reference.trajectories import ALLOWED, STEP, TOLERANCES, Trajectory
 from overrun_hitch.results import VARIABLES, values
@@ -73,7 +73,7 @@ def parameters(one: Trajectory) -> bytes:
 def mapping() -> bytes:
     """For --map: every name as it is here, for who has others to put theirs in."""
     described = {
-        "time": "time", "brake_torque": Scenario.description("brake_torque"), "grade": "rise of the road over its run",
+        "time": "time", "brake_torque": Scenario.description("brake_torque"), "grade": GRADE,
         **{name: text for name, (_, text) in VARIABLES.items()},
     }  # fmt: skip
     lines = ["# Put in what yours are called; a table that is left out stands for the same name."]
