@@ -35,9 +35,8 @@ def compiled(fmu: Path, folder: Path) -> list[str]:
     description = fmpy.read_model_description(str(fmu))
     references = {v.name: str(v.valueReference) for v in description.modelVariables}
     sources = [str(HERE / "six_seconds.c"), *map(str, sorted((folder / "sources").glob("*.c")))]
-    options = [option for option in OPTIONS if option != "-shared"]
     program = folder / "six_seconds"
-    command = [*compiler(), *options, f"-I{folder / 'sources'}", *sources, "-o", str(program), "-lm"]
+    command = [*compiler(), *OPTIONS, "-fPIC", f"-I{folder / 'sources'}", *sources, "-o", str(program), "-lm"]
     subprocess.run(command, check=True)
     return [str(program), description.guid, references["brake_torque"], references["compression"]]
 
