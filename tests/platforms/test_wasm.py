@@ -184,6 +184,23 @@ def test_errors_come_through_the_callback(car_trailer: Path, tmp_path: Path) -> 
     assert "step" in refused[3] and "instantiation token" in stranger[3]
 
 
+def test_fmi_2_by_its_own_host(modelica_library: Path, car_trailer: Path, tmp_path: Path) -> None:
+    """The same end of figure 8 as by FMI 3, and the logger with its variable number of arguments."""
+    fmu = built(modelica_library, 2)
+    description = fmpy.read_model_description(str(fmu))
+    references = {v.name: str(v.valueReference) for v in description.modelVariables}
+    with zipfile.ZipFile(fmu) as archive:
+        module = archive.extract(f"{FOLDER}/CarTrailer.wasm", tmp_path)
+    host = str(HOST.with_name("wasm_host_fmi2.mjs"))
+    command = ["node", host, module, description.guid, references["brake_torque"], references["compression"]]
+    found = json.loads(subprocess.run(command, stdout=-1, check=True).stdout)
+    times = [i / 100 for i in range(601)]
+    rows = in_wasm(car_trailer, tmp_path, {"brake_torque": 1000.0}, ("compression",), times)["rows"]
+    assert found["value"] == rows[-1, 0] != 0.0 and found["refused"] == 3
+    ((*place, message),) = found["messages"]
+    assert place == [4711, "unit", 3, "logStatusError", "%s"] and "step" in message
+
+
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_the_checkers_find_nothing(fmi: int, modelica_library: Path) -> None:
     fmu = built(modelica_library, fmi)
