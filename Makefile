@@ -48,10 +48,10 @@ ssp: build/CarTrailer.ssp  ## wire Car and Trailer, with the nine cases' paramet
 build/CarTrailer.ssp: build/fmi2/Car.fmu build/fmi2/Trailer.fmu $(wildcard python/overrun_hitch/coupling/ssp*.py) python/overrun_hitch/parameters.py
 	$(BIN)/python -m overrun_hitch.coupling.ssp build/fmi2/Car.fmu build/fmi2/Trailer.fmu -o $@
 
-web: $(READY) $(WEB)  ## compile the live page's engine, and its unit in WebAssembly (web/build; needs Node)
-	cd web && npx tsc
+web: $(READY) $(WEB)  ## make the live page, with the unit in WebAssembly in it (build/live/index.html; needs Node)
 	$(BUILD).CarTrailer -o build/wasm/CarTrailer.fmu --fmi 3 --platforms wasm
-	$(BIN)/python web/unit.py build/wasm/CarTrailer.fmu web/build/unit
+	$(BIN)/python web/unit.py build/wasm/CarTrailer.fmu build/wasm
+	cd web && npx tsc --noEmit && node bundle.mjs ../build/wasm ../build/live/index.html
 
 $(WEB): web/package-lock.json
 	cd web && npm ci --no-fund --no-audit
@@ -95,7 +95,7 @@ lock: $(READY)  ## renew the pinned versions in requirements.txt
 	    --no-header --no-annotate pyproject.toml -o requirements.txt
 
 clean:  ## remove what was built; keep .venv
-	rm -rf build dist web/build web/node_modules $(READY_MADE) .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf build dist web/node_modules $(READY_MADE) .pytest_cache .mypy_cache .ruff_cache .hypothesis
 
 $(READY): requirements.txt pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10) and "Python 3.10 or newer is needed; name one with make PYTHON=...")'
