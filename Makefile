@@ -1,5 +1,5 @@
 .DEFAULT_GOAL := help
-.PHONY: help run report docs test test-all test-platforms fuzz fmu fmu-all ssp dist bench stops sanitize lint format lock clean
+.PHONY: help run report docs test test-all test-platforms fuzz fmu fmu-all ssp web dist bench stops sanitize lint format lock clean
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -11,6 +11,7 @@ READY_MADE := python/overrun_hitch/fmus
 DIST := $(foreach unit,$(UNITS),$(READY_MADE)/fmi2/$(unit).fmu $(READY_MADE)/fmi3/$(unit).fmu)
 BUILD := $(BIN)/python -m fmu_build modelica/OverrunHitch OverrunHitch.Systems
 SOURCES := $(READY) $(shell find modelica fmu_build -name '*.mo' -o -name '*.order' -o -name '*.py' -o -name '*.[ch]')
+WEB := web/node_modules/.package-lock.json
 C_FILES := $(shell find fmu_build/runtime -name "*.[ch]") tests/platforms/*.[ch] benchmarks/*.c
 
 help:  ## list the targets
@@ -28,7 +29,7 @@ docs: $(DOCS_READY)  ## make the documentation site, its examples run (build/sit
 test: $(READY)  ## run the tests, on all cores: every kind of check, long grids sampled
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not full and not platforms"
 
-test-all: test  ## run the rest of the tests as well
+test-all: $(if $(shell command -v npm),$(WEB)) test  ## run the rest of the tests as well
 	$(BIN)/python -m pytest -n auto --dist worksteal -m full
 
 test-platforms: $(READY)  ## build for all systems and run what can be run here (minutes, the first time)
@@ -50,6 +51,15 @@ ssp: build/CarTrailer.ssp  ## wire Car and Trailer, with the nine cases' paramet
 
 build/CarTrailer.ssp: build/fmi2/Car.fmu build/fmi2/Trailer.fmu $(wildcard python/overrun_hitch/coupling/ssp*.py) python/overrun_hitch/parameters.py
 	$(BIN)/python -m overrun_hitch.coupling.ssp build/fmi2/Car.fmu build/fmi2/Trailer.fmu -o $@
+
+web: $(READY) $(WEB)  ## make the live page, with the unit in WebAssembly in it (build/live/index.html; needs Node)
+	$(BUILD).CarTrailer -o build/wasm/CarTrailer.fmu --fmi 3 --platforms wasm
+	$(BIN)/python web/unit.py build/wasm/CarTrailer.fmu build/wasm
+	cd web && npx tsc --noEmit && node bundle.mjs ../build/wasm ../build/live/index.html
+
+$(WEB): web/package-lock.json
+	cd web && npm ci --no-fund --no-audit
+	touch $@
 
 dist: $(READY) $(DIST)  ## make the wheel, with the FMUs for all systems in it (dist; minutes, the first time)
 	$(BIN)/hatchling build -t wheel
@@ -91,7 +101,7 @@ lock: $(READY)  ## renew the pinned versions in requirements.txt
 	    --no-header --no-annotate -o requirements-docs.txt
 
 clean:  ## remove what was built; keep .venv
-	rm -rf build dist $(READY_MADE) .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf build dist web/node_modules $(READY_MADE) .pytest_cache .mypy_cache .ruff_cache .hypothesis
 
 $(READY): requirements.txt pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10) and "Python 3.10 or newer is needed; name one with make PYTHON=...")'

@@ -35,9 +35,8 @@ def linked(fmu: Path, folder: Path, source: str) -> Path:
     sources = folder / "sources"
     unit = folder / "unit.c"
     unit.write_text("".join(f'#include "{file.name}"\n' for file in sorted(sources.glob("*.c"))), encoding="utf-8")
-    options = [option for option in OPTIONS if option != "-shared"]
     program = folder / Path(source).stem
-    command = [*compiler(), *options, f"-I{sources}", str(HERE / source), str(unit), "-o", str(program), "-lm"]
+    command = [*compiler(), *OPTIONS, "-fPIC", f"-I{sources}", str(HERE / source), str(unit), "-o", str(program), "-lm"]
     subprocess.run(command, check=True)
     return program
 

@@ -29,7 +29,11 @@ def build_fmu(
     ] = None,
     fmi: Annotated[int, typer.Option(help="Version of the standard.", min=2, max=3)] = 2,
     platforms: Annotated[
-        str, typer.Option(help="host, all, or names with commas between them.", metavar="host|all|NAME,NAME")
+        str,
+        typer.Option(
+            help="host, all systems, wasm (WebAssembly), or names with commas between them.",
+            metavar="host|all|wasm|NAME,NAME",
+        ),
     ] = "host",
     libraries: Annotated[
         list[Path] | None,

@@ -22,15 +22,22 @@ WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Wdou
 # No fused multiply-add: the same source gives the same digits on every machine.
 # A shared library's functions have the standard's own names; a prefix is for static linking (see unit_header.py).
 UNPREFIXED = ("-DFMI2_OVERRIDE_FUNCTION_PREFIX", "-DFMI3_OVERRIDE_FUNCTION_PREFIX")
-OPTIONS = ("-std=c11", "-O3", "-ffp-contract=off", "-fPIC", "-shared", "-fvisibility=hidden", *UNPREFIXED, *WARNINGS)
+OPTIONS = ("-std=c11", "-O3", "-ffp-contract=off", "-fvisibility=hidden", *UNPREFIXED, *WARNINGS)
+SHARED = ("-fPIC", "-shared")
 # Calls from inside the library stay inside, whatever else the process has loaded under the same names. Windows and
 # macOS bind them so by themselves.
 ELF = ("-Wl,-Bsymbolic",)
+# A module that is called into, not run. Beside the standard's functions its host needs memory for what it passes, and
+# the table of functions, into which it puts its callbacks.
+WEBASSEMBLY = (
+    "-mexec-model=reactor",
+    "-Wl,--export-dynamic,--export=malloc,--export=free,--export-table,--growable-table",
+)
 
 
 @dataclass(frozen=True)
 class Platform:
-    """Where a library runs. ``name`` is FMI 3's platform tuple and the name of its folder there.
+    """Where a library runs. ``name`` is the platform tuple after FMI 3 and the name of its folder there.
 
     ``zig_target`` names the oldest system that the library is to run on; None: this machine, by its own compiler.
     """
@@ -58,6 +65,10 @@ PLATFORMS = {
         Platform("aarch64-darwin", "darwin64", ".dylib", "aarch64-macos.11.0"),
     )
 }
+# Neither FMI 3.0.2 nor 2.0.5 has a tuple for WebAssembly, and leave it to vendors to add names. The draft of a standard
+# for it (FMI-LS-WASM) puts components with an interface of their own into wasm32-wasip2; this is a module with the C
+# functions of FMI, and must not be taken for one.
+WASM = Platform("wasm32-wasi", "wasm32-wasi", ".wasm", "wasm32-wasi")
 PROCESSORS = {"x86_64": "x86_64", "amd64": "x86_64", "aarch64": "aarch64", "arm64": "aarch64"}
 
 
@@ -71,21 +82,22 @@ def host_platform() -> Platform:
 
 
 def named_platforms(names: Sequence[str]) -> tuple[Platform, ...]:
-    """Platforms by name, each once, in the order of the table; "all" is all of them, "host" this machine.
+    """Platforms by name, each once, in the order of the table; "all" is all of it, "host" this machine, "wasm" beside.
 
     "host" alone is compiled for by this machine's own compiler, and runs on systems as new as this one. Among others
     it gets what they get: zig, and the oldest system that the table names.
     """
+    allowed = ("host", "all", *PLATFORMS, "wasm")
     for name in names:
-        if name not in {"host", "all", *PLATFORMS}:
-            allowed = ", ".join(("host", "all", *PLATFORMS))
-            raise BuildError(f"platform {name!r} is not known: allowed are {allowed}")
+        if name not in allowed:
+            raise BuildError(f"platform {name!r} is not known: allowed are {', '.join(allowed)}")
     if not names:
         raise BuildError("no platform is named")
     if set(names) == {"host"}:
         return (host_platform(),)
     chosen = {host_platform().name if name == "host" else name for name in names}
-    return tuple(p for p in PLATFORMS.values() if p.name in chosen or "all" in chosen)
+    native = tuple(p for p in PLATFORMS.values() if p.name in chosen or "all" in chosen)
+    return (*native, WASM) if "wasm" in chosen else native
 
 
 def zig_compiler() -> list[str] | None:
@@ -145,7 +157,12 @@ def compile_library(folder: Path, library: Path, platform: Platform) -> None:
 
 
 def _command(platform: Platform, library: str) -> list[str]:
-    linking = {".dylib": [f"-Wl,-install_name,@rpath/{library}"], ".so": [*ELF]}.get(platform.suffix, [])
+    linking = {
+        ".so": [*SHARED, *ELF],
+        ".dll": [*SHARED],
+        ".dylib": [*SHARED, f"-Wl,-install_name,@rpath/{library}"],
+        ".wasm": [*WEBASSEMBLY],
+    }[platform.suffix]
     if platform.zig_target is None:
         return [*compiler(), *OPTIONS, *_words("CFLAGS", os.environ.get("CFLAGS", "")), *linking]
     zig = zig_compiler()

@@ -9,7 +9,7 @@ from pathlib import Path
 import lief
 import pytest
 
-from fmu_build.fmu.compile import PLATFORMS, compile_library
+from fmu_build.fmu.compile import PLATFORMS, WASM, Platform, compile_library
 from fmu_build.pipeline import build
 
 pytestmark = pytest.mark.platforms
@@ -88,10 +88,10 @@ def test_two_builds_are_the_same_bytes(everywhere_fmu: Path, modelica_library: P
     assert again.read_bytes() == everywhere_fmu.read_bytes()
 
 
-@pytest.mark.parametrize("name", list(PLATFORMS))
-def test_nothing_is_left_beside_a_library(everywhere_fmu: Path, tmp_path: Path, name: str) -> None:
+@pytest.mark.parametrize("platform", [*PLATFORMS.values(), WASM], ids=lambda platform: platform.name)
+def test_nothing_is_left_beside_a_library(everywhere_fmu: Path, tmp_path: Path, platform: Platform) -> None:
     del everywhere_fmu  # skips where zig is not installed
     (tmp_path / "a.c").write_text(FUNCTION)
-    suffix = PLATFORMS[name].suffix
-    compile_library(tmp_path, tmp_path / "out" / f"M{suffix}", PLATFORMS[name])
+    suffix = platform.suffix
+    compile_library(tmp_path, tmp_path / "out" / f"M{suffix}", platform)
     assert sorted(str(p.relative_to(tmp_path)) for p in tmp_path.rglob("*")) == ["a.c", "out", f"out/M{suffix}"]

@@ -7,7 +7,7 @@ import struct
 import pytest
 
 from fmu_build.errors import BuildError
-from fmu_build.fmu.compile import PLATFORMS, host_platform, named_platforms
+from fmu_build.fmu.compile import PLATFORMS, WASM, host_platform, named_platforms
 from fmu_build.fmu.fat_mach_o import universal
 
 X86_64, ARM64 = 0x01000007, 0x0100000C  # mach/machine.h: CPU_TYPE_X86_64, CPU_TYPE_ARM64
@@ -46,9 +46,11 @@ def test_names_of_platforms() -> None:
     windows = PLATFORMS["x86_64-windows"]
     assert named_platforms(["x86_64-windows"]) == (windows,)
     assert set(named_platforms(["host", "x86_64-windows"])) == {PLATFORMS[host.name], windows}
+    assert named_platforms(["wasm"]) == (WASM,) and WASM not in named_platforms(["all"])
+    assert named_platforms(["wasm", "all"]) == (*PLATFORMS.values(), WASM)
     for wrong in (["vax"], []):
         with pytest.raises(BuildError) as caught:
             named_platforms(wrong)
         assert "\n" not in str(caught.value)
-    with pytest.raises(BuildError, match=r"'vax'.*allowed are host, all, x86_64-linux"):
+    with pytest.raises(BuildError, match=r"'vax'.*allowed are host, all, x86_64-linux, .*, wasm$"):
         named_platforms(["host", "vax"])

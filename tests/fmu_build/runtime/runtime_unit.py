@@ -10,12 +10,12 @@ from pathlib import Path
 
 import numpy as np
 
-from fmu_build.fmu.compile import HEADERS, OPTIONS, RUNTIME, compiler
+from fmu_build.fmu.compile import HEADERS, OPTIONS, RUNTIME, SHARED, compiler
 from tests.fmu_build.runtime.hand_written import TOKEN, Model
 from tests.kept import kept
 
 HERE = Path(__file__).parent
-FLAGS = [*OPTIONS, "-O1", "-Werror"]
+FLAGS = [*OPTIONS, *SHARED, "-O1", "-Werror"]
 OK, WARNING, DISCARD, ERROR = range(4)
 
 LOGGER = ct.CFUNCTYPE(None, ct.c_void_p, ct.c_char_p, ct.c_int, ct.c_char_p, ct.c_char_p, ct.c_char_p)

@@ -1,0 +1,120 @@
+/** Linear theory of the drawbar: theory/linear.py once more, for a page. The tests hold the two together. */
+import { EigenvalueDecomposition, Matrix, inverse } from "ml-matrix";
+
+/** Of the paper's parameters those that linear theory knows, in SI units; what they mean: docs/parameters.md. */
+export interface LinearParameters {
+  M_c: number;
+  M_t: number;
+  I_c: number;
+  I_t: number;
+  R_c: number;
+  R_t: number;
+  C_kc: number;
+  C_kt: number;
+  k: number;
+  C: number;
+  rebound: number;
+  r: number;
+  tau_b: number;
+}
+
+/** Of e^(re + i im)t, both in 1/s. */
+export interface Eigenvalue {
+  re: number;
+  im: number;
+}
+
+/**
+ * The dynamic matrix (5 x 5, in rows) for (x_t - x_c, v_c, v_t, omega_c, omega_t) at the speed V in m/s; with tau_b > 0
+ * the trailer's brake torque is a sixth state. RangeError where V is not greater than 0.
+ */
+export function compressionMatrix(p: LinearParameters, V: number): number[][] {
+  if (!(V > 0)) {
+    throw new RangeError(`V_0 = ${V} m/s is not allowed: linear theory needs a speed greater than 0 m/s`);
+  }
+  const C = 0.5 * p.C * (1 + p.rebound);
+  const g_c = p.C_kc / V;
+  const g_t = p.C_kt / V;
+  const car = [p.k / p.M_c, -(C + g_c) / p.M_c, C / p.M_c, (g_c * p.R_c) / p.M_c, 0];
+  const trailer = [-p.k / p.M_t, C / p.M_t, -(C + g_t) / p.M_t, 0, (g_t * p.R_t) / p.M_t];
+  const carWheel = [0, (g_c * p.R_c) / p.I_c, 0, (-g_c * p.R_c ** 2) / p.I_c, 0];
+  const trailerWheel = [-p.r / p.I_t, 0, (g_t * p.R_t) / p.I_t, 0, (-g_t * p.R_t ** 2) / p.I_t];
+  const rows = [[0, -1, 1, 0, 0], car, trailer, carWheel, trailerWheel];
+  if (!(p.tau_b > 0)) {
+    return rows;
+  }
+  trailerWheel[0] = 0; // what was there is the torque's, which follows: tau_b T' = r (x_t - x_c) - T
+  const torque = [p.r / p.tau_b, 0, 0, 0, 0, -1 / p.tau_b];
+  return [...rows.map((row) => [...row, row === trailerWheel ? -1 / p.I_t : 0]), torque];
+}
+
+/** The eigenvalues of a real matrix, in no order. */
+export function eigenvalues(matrix: number[][]): Eigenvalue[] {
+  return values(decomposition(matrix));
+}
+
+/**
+ * The mode in which car and trailer move against each other, with im >= 0: a motion that grows, else the one in which
+ * the compression participates most (theory/linear.py: shunting_mode). RangeError as above, and where k = r = 0.
+ */
+export function shuntingMode(p: LinearParameters, V: number): Eigenvalue {
+  if (!(p.k + p.r > 0)) {
+    throw new RangeError("k = 0 N/m and r = 0 N.m/m leave no shunting mode: one of them must be greater than 0");
+  }
+  const found = decomposition(compressionMatrix(p, V));
+  const modes = values(found);
+  const fastest = Math.max(...modes.map(({ re, im }) => Math.hypot(re, im)));
+  const grows = modes.filter(({ re }) => re > 1e-9 * fastest);
+  const shares = participations(found, modes);
+  const { re, im } = grows[0] ?? modes[shares.indexOf(Math.max(...shares))]!;
+  return { re, im: Math.abs(im) };
+}
+
+function decomposition(matrix: number[][]): EigenvalueDecomposition {
+  return new EigenvalueDecomposition(new Matrix(balanced(matrix)), { assumeSymmetric: false });
+}
+
+/**
+ * The matrix in other units of its states, powers of 2, in which rows are about as large as columns: forces and metres
+ * differ by 1e6, which costs digits (B. N. Parlett and C. Reinsch 1969, doi 10.1007/BF02165404). LAPACK does so by
+ * itself. Eigenvalues and participations stay.
+ */
+function balanced(matrix: number[][]): number[][] {
+  const rows = matrix.map((row) => [...row]);
+  for (let again = true; again; ) {
+    again = false;
+    rows.forEach((row, i) => {
+      const others = rows.filter((other) => other !== row);
+      const column = magnitude(others.map((other) => other[i]!));
+      const size = magnitude(row.filter((_, j) => j !== i));
+      const factor = column > 0 && size > 0 ? 2 ** Math.round(Math.log2(size / column) / 2) : 1;
+      if (column * factor + size / factor < 0.95 * (column + size)) {
+        row.forEach((value, j) => (row[j] = j === i ? value : value / factor));
+        others.forEach((other) => (other[i]! *= factor));
+        again = true;
+      }
+    });
+  }
+  return rows;
+}
+
+function magnitude(values: number[]): number {
+  return values.reduce((total, value) => total + Math.abs(value), 0);
+}
+
+function values(found: EigenvalueDecomposition): Eigenvalue[] {
+  return found.realEigenvalues.map((re, i) => ({ re, im: found.imaginaryEigenvalues[i]! }));
+}
+
+/** |right * left eigenvector| at the compression. Of a pair, a + ib and its conjugate, two columns hold a and b. */
+function participations(found: EigenvalueDecomposition, modes: Eigenvalue[]): number[] {
+  const right = found.eigenvectorMatrix.getRow(0);
+  const left = inverse(found.eigenvectorMatrix).getColumn(0);
+  return modes.map(({ im }, i) => {
+    if (im === 0) {
+      return Math.abs(right[i]! * left[i]!);
+    }
+    const other = im > 0 ? i + 1 : i - 1;
+    return Math.hypot(right[i]!, right[other]!) * Math.hypot(left[i]!, left[other]!) * 0.5;
+  });
+}

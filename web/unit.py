@@ -1,0 +1,53 @@
+"""What the page needs of an FMI 3 FMU: ``python web/unit.py NAME.fmu FOLDER`` writes NAME.wasm and NAME.json there."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import fmpy
+
+from fmu_build.fmu.compile import WASM
+
+
+def describe(fmu: Path) -> dict[str, Any]:
+    """Name, token and real variables: what src/unit.ts calls a Description."""
+    description = fmpy.read_model_description(str(fmu))
+    variables = {
+        v.name: {
+            "reference": v.valueReference,
+            "causality": v.causality,
+            "unit": v.unit,
+            "start": _number(v.start),
+            "min": _number(v.min),
+            "max": _number(v.max),
+            "description": v.description,
+        }
+        for v in description.modelVariables
+        if v.type == "Float64"
+    }
+    return {"name": description.modelName, "token": description.instantiationToken, "variables": variables}
+
+
+def _number(text: str | None) -> float | None:
+    return None if text is None else float(text)
+
+
+def write(fmu: Path, folder: Path) -> None:
+    """Write both files. KeyError where the FMU has no library in WebAssembly."""
+    with zipfile.ZipFile(fmu) as archive:
+        module = archive.read(f"binaries/{WASM.fmi3_folder}/{fmu.stem}.wasm")
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / f"{fmu.stem}.wasm").write_bytes(module)
+    (folder / f"{fmu.stem}.json").write_text(json.dumps(describe(fmu)), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("fmu", type=Path)
+    parser.add_argument("folder", type=Path)
+    arguments = parser.parse_args()
+    write(arguments.fmu, arguments.folder)
