@@ -29,7 +29,8 @@ docs: $(DOCS_READY)  ## make the documentation site, its examples run (build/sit
 test: $(READY)  ## run the tests, on all cores: every kind of check, long grids sampled
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not full and not platforms"
 
-test-all: $(if $(shell command -v npm),$(WEB)) test  ## run the rest of the tests as well
+test-all: test  ## run the rest of the tests as well, those of the live page where npm is and gets its packages
+	$(if $(shell command -v npm),-$(MAKE) --no-print-directory $(WEB))
 	$(BIN)/python -m pytest -n auto --dist worksteal -m full
 
 test-platforms: $(READY)  ## build for all systems and run what can be run here (minutes, the first time)

@@ -68,6 +68,7 @@ def compression(project: Path, stem: str) -> np.ndarray:
     return np.genfromtxt(project / "build" / "run" / f"{stem}.csv", delimiter=",", names=True)["compression_m"]
 
 
+@pytest.mark.full
 def test_a_run_at_the_default_agrees_with_theory(project: Path) -> None:
     said = hitch(project, "run")
     assert said.count("agrees") == 5 and "not judged" not in said
@@ -90,6 +91,7 @@ def refusal(project: Path, *arguments: str) -> str:
     return done.stderr
 
 
+@pytest.mark.full
 def test_a_value_out_of_range_is_told_in_one_line(project: Path) -> None:
     said = refusal(project, "run", "--set", "g_new=-1")
     assert "g_new = -1 is not allowed: factor on the damper coefficient must be" in said
@@ -104,7 +106,8 @@ def test_a_sweep_goes_over_it(project: Path) -> None:
     assert least < median < greatest < 0.0
 
 
-@pytest.mark.parametrize("command", ["stability", pytest.param("optimise", marks=pytest.mark.full)])
+@pytest.mark.full
+@pytest.mark.parametrize("command", ["stability", "optimise"])
 def test_linear_theory_refuses_it_by_name(project: Path, command: str) -> None:
     assert refusal(project, command, "--set", "g_new=3") == "hitch: linear theory does not know g_new = 3; allowed: 1\n"
 

@@ -99,6 +99,7 @@ def test_no_compilers(decay: Path, monkeypatch: pytest.MonkeyPatch, capsys: pyte
         compile._command(compile.host_platform(), "a.so")
 
 
+@pytest.mark.full
 def test_classes_that_were_meant(capsys: pytest.CaptureFixture[str]) -> None:
     for wrong, meant in [
         ("overrunhitch.systems.car", "OverrunHitch.Systems.Car"),

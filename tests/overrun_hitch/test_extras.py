@@ -41,11 +41,13 @@ def test_which_extra_brings_it(packages: list[str], code: str, arguments: list[s
     assert told in line
 
 
+@pytest.mark.full
 def test_a_script_is_told_as_well() -> None:
     done = ran(["zarr"], API)
     assert "HitchError: this needs zarr, which is not installed" in done.stderr
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("command", [["cases"], ["stability", "--V", "20"], ["run", "--help"], ["sweep", "--help"]])
 def test_the_rest_needs_none_of_them(command: list[str], tmp_path: Path) -> None:
     code = f"import os; os.chdir({str(tmp_path)!r}); {HITCH}"

@@ -56,6 +56,7 @@ def test_what_is_said(sorted_model: Callable[[str], SortedModel]) -> None:
     assert "x" in model.sources["switched"] and "x" not in kinds["switched"]  # through a condition alone: dependent
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("version", [2, 3])
 def test_factors_of_the_unit_stay_where_it_says_so(
     car_trailer_fmus: dict[int, Path], version: int, tmp_path: Path

@@ -55,6 +55,7 @@ def crossing() -> Iterator[tuple[str, frozenset[str], bool]]:
                 yield kind, frozenset(written), is_redeclared
 
 
+@pytest.mark.full
 def test_a_modifier_counts_or_is_refused(modelica_file: Writer) -> None:
     accepted = 0
     for kind, written, is_redeclared in crossing():

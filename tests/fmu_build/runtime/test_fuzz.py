@@ -21,7 +21,8 @@ def named(value: Model | int) -> str:
     return value.name if isinstance(value, Model) else str(value)
 
 
-@pytest.mark.parametrize(("model", "fmi"), spread([CAR_TRAILER, OSCILLATOR, TOWED], [2, 3]), ids=named)
+@pytest.mark.parametrize("fmi", sampled([2, 3], [2]))
+@pytest.mark.parametrize("model", sampled([CAR_TRAILER, OSCILLATOR, TOWED], [TOWED]), ids=named)
 def test_random_calls(model: Model, fmi: int) -> None:
     random_calls(fuzzer(model, fmi))
 

@@ -49,6 +49,7 @@ def test_what_is_nothing_does_not_vary() -> None:
     assert {name for name, value in DATUM.model_dump().items() if value == 0.0}.isdisjoint(varied(DATUM))
 
 
+@pytest.mark.full
 def test_runs_without_damping_are_told(car_trailer_fmu: Path, tmp_path: Path) -> None:
     sweep = runs(car_trailer_fmu, tmp_path / "small.zarr")
     sweep["damping_ratio"][3] = np.nan
