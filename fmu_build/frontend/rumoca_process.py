@@ -18,7 +18,6 @@ from typing import Any
 
 import rumoca
 
-from .rewriting.restated import algorithm_left, restated
 from .source_tree import SourceTree, copy_of_needed, whole_tree
 from .table_calls import with_calls_in_sums
 
@@ -29,8 +28,18 @@ MISSING = re.compile("unresolved|not found|does not exist|resolve/parse failed")
 ALGORITHM = "unsupported model algorithm"
 ALGORITHM_REMEDY = "give each variable a value in every branch, and loops numbers as bounds; or write a function"
 Rewrite = Callable[[str], str]
+
+
+def _restated(text: str) -> str:
+    from .rewriting.restated import (
+        restated,
+    )  # only here, because its graphs take 0.2 s to import, and few models need it
+
+    return restated(text)
+
+
 # What rumoca says, and what says the same in a way that it takes; the last, whatever it says.
-REWRITES: Sequence[tuple[str, Rewrite]] = (("unbalanced model", with_calls_in_sums), ("", restated))
+REWRITES: Sequence[tuple[str, Rewrite]] = (("unbalanced model", with_calls_in_sums), ("", _restated))
 # What rumoca says, what shows the place in the source, and what to do.
 REMEDIES = (
     (
@@ -149,6 +158,8 @@ def _located_message(text: str, entry: Path, class_name: str) -> str:
     message = re.sub(r"^\S+ could not be compiled: |^\w+ failed: \S+ failed in \w+: ", "", first_line)
     if place := re.search(r" \[(\S+:\d+):\d+\]", message):
         return f"{place.group(1)}: {message.replace(place.group(0), '')}"
+    from .rewriting.restated import algorithm_left
+
     files = _files(entry, class_name)
     for file in files if ALGORITHM in message else ():
         text = file.read_text(encoding="utf-8")
