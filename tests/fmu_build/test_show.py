@@ -8,7 +8,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from tests.sampling import sampled
 
 from fmu_build.equations.derive import derive
 from fmu_build.equations.initialize import initialize
@@ -22,6 +21,7 @@ from fmu_build.ir.symbols import partial_name
 from fmu_build.pipeline import show
 from tests.fmu_build.conftest import Build, Writer
 from tests.fmu_build.frontend.test_errors import run_command
+from tests.sampling import sampled
 
 EVENTS = """model M "Balls"
   parameter Real e = 0.8;
