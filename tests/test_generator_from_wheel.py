@@ -9,11 +9,14 @@ import sys
 import zipfile
 from pathlib import Path
 
+import pytest
+
 from tests.conftest import ROOT
 
 MODEL = "model Falling\n  Real h(start=10, fixed=true);\n  Real v;\nequation\n  der(h) = v;\n  v = -1;\nend Falling;\n"
 
 
+@pytest.mark.full
 def test_it_builds_a_model(tmp_path: Path) -> None:
     clone = tmp_path / "clone"
     ignored = shutil.ignore_patterns("__pycache__", "fmus", "*.egg-info")

@@ -73,6 +73,7 @@ def test_what_was_used_last_stays(folder: Path, monkeypatch: pytest.MonkeyPatch)
     assert len(list(folder.iterdir())) == 5 and (folder / "tmp-new").exists()
 
 
+@pytest.mark.full
 def test_a_changed_byte_in_any_source_gives_another_key(tmp_path: Path) -> None:
     for top in ("modelica", "fmu_build"):
         shutil.copytree(ROOT / top, tmp_path / top, ignore=shutil.ignore_patterns("__pycache__"))

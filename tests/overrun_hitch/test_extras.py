@@ -55,6 +55,7 @@ def test_the_rest_needs_none_of_them(command: list[str], tmp_path: Path) -> None
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.full
 def test_runs_in_memory_need_none_of_them() -> None:
     many = "hitch.run_many({'C': [1.0]}, metrics=['growth_rate'])"
     done = ran(EXTRAS, f"import overrun_hitch as hitch; hitch.compare(hitch.run()); {many}")

@@ -59,6 +59,7 @@ def test_both_checkers_find_nothing(fmus: Fmus, name: str, version: int) -> None
     checked_by_both(fmus[name, version], version)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("version", sampled(VERSIONS, [2]))
 def test_nor_in_the_hitch_alone(version: int) -> None:
     checked_by_both(kept_fmus("Systems.Hitch", fmi=version)["Hitch"], version)
@@ -73,6 +74,7 @@ def checked_by_both(fmu: Path, version: int) -> None:
     assert "WARNING" not in report and "ERROR" not in report
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("version", sampled(VERSIONS, [3]))
 def test_the_same_source_gives_the_same_bytes(fmus: Fmus, modelica_library: Path, tmp_path: Path, version: int) -> None:
     build(modelica_library, "OverrunHitch.Systems.Trailer", tmp_path / "Trailer.fmu", version)

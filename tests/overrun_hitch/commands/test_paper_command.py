@@ -139,6 +139,7 @@ def test_output_that_cannot_be_a_folder(command: Command, tmp_path: Path, capsys
     assert "cannot write" in capsys.readouterr().err
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("where", [(study_module, "study"), (paper_figures_module, "figures")])
 def test_interrupted(
     command: Command, where: tuple[object, str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path

@@ -68,6 +68,7 @@ def test_verdicts_do_not_depend_on_what_else_there_is(
     )
 
 
+@pytest.mark.full
 def test_other_kinds_of_the_same_unit_agree(car_trailer_fmus: dict[int, Path]) -> None:
     kinds = [Asked(car_trailer_fmus[fmi], {}, use) for fmi, use in ((2, "cs"), (2, "me"), (3, "cs"), (3, "me"))]
     for check in checked(*kinds, figures=["6a"]):
@@ -117,6 +118,7 @@ def test_names_signs_and_units_of_others(car_trailer_fmu: Path, tmp_path: Path) 
     assert [row.hint for row in turned.distances if row.differs] == ["opposite sign?, a factor of 1000, unit?"]
 
 
+@pytest.mark.full
 def test_units_are_the_fmus_own(car_trailer_fmu: Path, tmp_path: Path) -> None:
     """What the FMU calls "m/s2" it defines as 1000 of ours."""
     other = tmp_path / "other.fmu"

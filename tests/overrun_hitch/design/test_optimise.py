@@ -16,6 +16,7 @@ from overrun_hitch.parameters import CASES, DATUM, HitchError
 from overrun_hitch.theory.linear import shunting_mode
 
 
+@pytest.mark.full
 @given(ratio=st.floats(0.03, 0.3), case=st.sampled_from(sorted(CASES)))
 @settings(max_examples=10, deadline=None)
 def test_it_is_enough_at_every_speed_and_less_is_not(ratio: float, case: str) -> None:

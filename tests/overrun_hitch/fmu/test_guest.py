@@ -75,6 +75,7 @@ def test_one_of_a_pair_that_hangs(
     assert capfd.readouterr().err == f"hitch: {car} with {trailer}: {words}\n"
 
 
+@pytest.mark.full
 def test_the_next_run_gets_another_process(car_trailer_fmu: Path, tmp_path: Path) -> None:
     code = f"if (C == 1.0) {{ {FAULTS} }} if (C == 2.0) {{ {HANGS} }}"
     fmu = stranger(car_trailer_fmu, tmp_path / "spoilt.fmu", do_step=code)

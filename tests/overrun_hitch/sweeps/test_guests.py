@@ -15,6 +15,7 @@ from tests.overrun_hitch.fmu.strangers import ABORTS, FAULTS, HANGS, stranger
 from tests.overrun_hitch.sweeps.test_sweep import alone, workers
 
 
+@pytest.mark.full
 def test_runs_that_hang_or_crash_are_recorded_and_stop_nothing(
     car_trailer_fmu: Path, tmp_path: Path, temporary: Path
 ) -> None:

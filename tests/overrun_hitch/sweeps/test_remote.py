@@ -130,6 +130,7 @@ def test_options_and_addresses(
     assert "no Dask scheduler answers" in refusal(capsys, [*command, "--scheduler", "tcp://nowhere.invalid:8786"])
 
 
+@pytest.mark.full
 def test_tcp_is_warned_of_once_and_one_that_says_nothing_does_not_hang(
     command: list[str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

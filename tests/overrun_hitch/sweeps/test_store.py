@@ -99,6 +99,7 @@ SOME = {
 }  # fmt: skip
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("cases", ["some", pytest.param("all", marks=pytest.mark.full)])
 def test_whatever_is_damaged_is_named_and_made_again_and_nothing_else(
     cases: str, sweep: Sweep, finished: Path, tmp_path: Path

@@ -31,6 +31,7 @@ ASKED: list[tuple[Callable[[Parameters], object], set[str]]] = [
 ]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("ask", "of_no_account"), ASKED, ids=["cycles", "amplitude", "integrated", "turning speed"])
 def test_none_is_ignored(ask: Callable[[Parameters], object], of_no_account: set[str]) -> None:
     known = ask(BASE)
