@@ -235,8 +235,8 @@ class ExpressionReader:
         raise ValueError(f"{name}(): not supported; write a function with an algorithm in Modelica")
 
     def assertion(self, node: Mapping[str, Any]) -> None:
-        """Keep what a function asserts."""
-        raise NotImplementedError
+        """Keep what a function asserts; for EventReader to say how, since it alone knows of events."""
+        raise NotImplementedError  # a reader without events has no use for it, and is never asked
 
     def _several(self, body: Mapping[str, Any]) -> Value:
         """``(a, b) = f(x)``, as the residuals a - y1, b - y2."""

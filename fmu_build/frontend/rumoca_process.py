@@ -31,9 +31,8 @@ Rewrite = Callable[[str], str]
 
 
 def _restated(text: str) -> str:
-    from .rewriting.restated import (
-        restated,
-    )  # only here, because its graphs take 0.2 s to import, and few models need it
+    # Imported only here, because its graphs take 0.2 s, and few models need it.
+    from .rewriting.restated import restated
 
     return restated(text)
 

@@ -26,7 +26,7 @@ def read_mat_file(path: Path) -> Table:
         content = loadmat(path, chars_as_strings=False)
     except OSError as error:
         raise HitchError(f"cannot read {path}: {error.strerror or error}") from None
-    except NotImplementedError:
+    except NotImplementedError:  # SciPy's word for HDF5 inside
         raise HitchError(f"{path} is a MAT file of version 7.3; allowed: 4 to 7.2 (save -v7)") from None
     except Exception as error:  # scipy's reader of what is no MAT file raises as it comes
         raise HitchError(f"{path} is no MAT file: {' '.join(str(error).split())}") from None
