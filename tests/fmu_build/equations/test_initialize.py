@@ -11,6 +11,7 @@ import pytest
 from fmu_build.errors import BuildError
 from fmu_build.ir.models import SortedModel
 from tests.fmu_build.conftest import Build
+from tests.sampling import sampled
 
 # What determines the parameter a, with declarations and equations of its own, and the value of a by that of q.
 DETERMINED = {
@@ -136,7 +137,9 @@ STARTS = {
 }
 
 
-@pytest.mark.parametrize("case", STARTS)
+@pytest.mark.parametrize(
+    "case", sampled(STARTS, {"equations", "equations, contradicting", "an equation beside a fixed one, contradicting"})
+)
 def test_a_constraint_that_nothing_is_left_of_is_checked(case: str, sorted_model: Callable[[str], SortedModel]) -> None:
     x, y, equations, error = STARTS[case]
     text = PENDULUM.replace("{}", x, 1).replace("{}", y, 1)

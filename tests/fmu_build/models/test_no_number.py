@@ -11,6 +11,7 @@ import pytest
 from fmu_build.errors import BuildError
 from fmu_build.frontend.flatten import flatten
 from tests.fmu_build.conftest import Build, CompiledModel, Writer
+from tests.sampling import sampled
 
 BAD = "sqrt(-1) sqrt(-1.0) log(-1) log(0) log10(-2.0) acos(2) acos(2.0) asin(-3) (-1)^0.5 (-2.0)^(1/3) 1/0 0/0 0.0/0.0"
 BAD += (
@@ -41,7 +42,7 @@ def test_it_is_nan_where_it_is_needed(
     assert [e for e, y in zip(EXPRESSIONS, found, strict=True) if math.isnan(y) == is_number] == []
 
 
-@pytest.mark.parametrize("start", ["1/p", "sqrt(p - 1)", "log(p)", "c"])
+@pytest.mark.parametrize("start", sampled(["1/p", "sqrt(p - 1)", "log(p)", "c"], {"1/p", "c"}))
 def test_a_start_value_has_to_be_one(start: str, modelica_file: Writer) -> None:
     text = f"model M\n  parameter Real p = 0;\n  constant Real c;\n  input Real u(start={start});\nend M;\n"
     with pytest.raises(BuildError, match=r"M\.mo:4: (start of u|constant c)"):
