@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 from fmu_build.fmu.compile import host_platform
 from overrun_hitch.parameters import FIGURES
 from overrun_hitch.results import VARIABLES
+from tests.sampling import spread
 from tests.unit import Unit
 
 VERSIONS = [2, 3]
@@ -93,9 +94,7 @@ def test_the_step_offered_is_a_whole_part_of_a_second(car_trailer_fmus: dict[int
 
 
 @toolbox_runs_here
-@pytest.mark.parametrize("stride", [1, 10])
-@pytest.mark.parametrize("figure", ["6a", "10"])
-@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize(("version", "figure", "stride"), spread(VERSIONS, ["6a", "10"], [1, 10]))
 def test_one_unit(
     car_trailer_fmus: dict[int, Path],
     tmp_path: Path,
@@ -131,8 +130,7 @@ def test_one_unit(
 
 
 @toolbox_runs_here
-@pytest.mark.parametrize("threads", [False, True])
-@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize(("version", "threads"), spread(VERSIONS, [False, True]))
 def test_two_units_linked(car_trailer_fmus: dict[int, Path], tmp_path: Path, version: int, threads: bool) -> None:
     """Figure 10's trailer brake is what brakes figure 6a's car, in a container that has the parameters."""
     fmu, figures = car_trailer_fmus[version], {"first": "10", "second": "6a"}

@@ -131,7 +131,7 @@ def test_the_command_prints_and_writes_nothing(place: Callable[[str], tuple[Path
     ("options", "said"),
     [
         (("--show", "all"), ("flat", "sorted", "jacobian", "'c'")),
-        ((), ("-o OUT.fmu", "--show STAGE")),
+        pytest.param((), ("-o OUT.fmu", "--show STAGE"), marks=pytest.mark.full),
         (("--show", "flat", "-o", "M.fmu"), ("-o OUT.fmu", "--show STAGE")),
     ],
 )

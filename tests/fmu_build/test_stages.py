@@ -14,6 +14,7 @@ from fmu_build.frontend.flatten import flatten
 from fmu_build.ir.models import SortedModel
 from fmu_build.ir.symbols import relation_of
 from tests.fmu_build.conftest import CompiledModel
+from tests.sampling import spread
 
 Compile = Callable[[str], CompiledModel]
 
@@ -210,8 +211,7 @@ end M;"""
         np.testing.assert_array_equal([brief[d] for d in derivatives], [whole[d] for d in derivatives])
 
 
-@pytest.mark.parametrize("s_rel", [0.5, 0.02, -0.6])
-@pytest.mark.parametrize("at_start", [False, True])
+@pytest.mark.parametrize(("s_rel", "at_start"), spread([0.5, 0.02, -0.6], [False, True]))
 def test_tangent_against_differences_and_adjoint_against_tangent(
     compiled_model: Compile, s_rel: float, at_start: bool
 ) -> None:

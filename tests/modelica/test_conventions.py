@@ -9,6 +9,7 @@ import pytest
 
 from fmu_build.frontend.flatten import flatten
 from fmu_build.ir.models import FlatModel
+from tests.sampling import sampled
 
 LIBRARY = Path(__file__).parents[2] / "modelica" / "OverrunHitch"
 FILES = sorted(LIBRARY.rglob("*.mo"))
@@ -60,7 +61,7 @@ def test_every_quantity_of_units_has_a_unit() -> None:
     assert all('final unit="' in attributes and 'final quantity="' in attributes for _, attributes in types)
 
 
-@pytest.mark.parametrize("figure", FIGURES)
+@pytest.mark.parametrize("figure", sampled(FIGURES, ["8"]))
 def test_examples_carry_their_experiment(figure: str) -> None:
     flat = flatten(LIBRARY, f"OverrunHitch.Examples.{figure}")
     assert (flat.experiment.start_time, flat.experiment.stop_time) == (0.0, 6.0)

@@ -33,7 +33,8 @@ def test_random_calls_of_a_generated_model_with_a_coupling(system: str, fmi: int
     random_calls(fuzzer(generate(modelica_library, f"OverrunHitch.Systems.{system}"), fmi))
 
 
-@pytest.mark.parametrize("fmi", sampled([2, 3], [2]))
+@pytest.mark.full
+@pytest.mark.parametrize("fmi", [2, 3])
 def test_random_calls_of_a_model_with_events(fmi: int, tmp_path: Path) -> None:
     (tmp_path / "Events.mo").write_text(EVENTS, encoding="utf-8")
     random_calls(fuzzer(generate(tmp_path / "Events.mo", "Events"), fmi))

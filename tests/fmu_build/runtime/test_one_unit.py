@@ -53,10 +53,9 @@ def test_a_model_written_by_hand(model: Model, fmi: int, backwards: bool, tmp_pa
     compile_as_one(model, fmi, tmp_path, backwards=backwards)
 
 
-@pytest.mark.parametrize("fmi", [2, 3])
-@pytest.mark.parametrize(("name", "text"), [("Events", EVENTS), ("Loops", LOOPS)])
-def test_a_generated_model(name: str, text: str, fmi: int, tmp_path: Path) -> None:
-    (tmp_path / f"{name}.mo").write_text(text, encoding="utf-8")
+@pytest.mark.parametrize(("name", "fmi"), spread(["Events", "Loops"], [2, 3]))
+def test_a_generated_model(name: str, fmi: int, tmp_path: Path) -> None:
+    (tmp_path / f"{name}.mo").write_text({"Events": EVENTS, "Loops": LOOPS}[name], encoding="utf-8")
     model = generate(tmp_path / f"{name}.mo", name)
     (folder := tmp_path / "c").mkdir()
     for backwards in (False, True):

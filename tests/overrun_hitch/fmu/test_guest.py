@@ -25,6 +25,7 @@ from overrun_hitch.fmu.settings import Settings
 from overrun_hitch.parameters import FIGURES, HitchError
 from tests.overrun_hitch.fmu.strangers import ABORTS, ALLOCATES, EXITS, FAULTS, HANGS, stranger
 from tests.runs import step_brake
+from tests.sampling import sampled
 
 ENDINGS = {
     "hangs": (HANGS, "did not finish within 1 s (--time-limit)"),
@@ -41,7 +42,7 @@ def guests() -> list[psutil.Process]:
     return [one for one in psutil.Process().children() if any("guest_process" in word for word in one.cmdline())]
 
 
-@pytest.mark.parametrize("ending", ENDINGS)
+@pytest.mark.parametrize("ending", sampled(ENDINGS, ["hangs", "aborts", "exits"]))
 def test_an_fmu_that_ends_its_process_is_one_line_and_status_2(
     ending: str, car_trailer_fmu: Path, tmp_path: Path, temporary: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:

@@ -68,7 +68,9 @@ def run(unit: Callable[..., Unit]) -> Callable[..., tuple[np.ndarray, Unit]]:
 
 @pytest.mark.parametrize("figure", FIGURES)
 @pytest.mark.parametrize(
-    ("tolerance", "compression", "speed"), [(1e-6, 1e-4, 1e-3), (1e-8, 2e-6, 2e-5)], ids=["1e-6", "1e-8"]
+    ("tolerance", "compression", "speed"),
+    [pytest.param(1e-6, 1e-4, 1e-3, marks=pytest.mark.full), (1e-8, 2e-6, 2e-5)],
+    ids=["1e-6", "1e-8"],
 )
 def test_against_radau(run: Callable, figure: str, tolerance: float, compression: float, speed: float) -> None:
     _, exact = reference(figure)

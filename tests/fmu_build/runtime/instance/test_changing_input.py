@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from overrun_hitch.parameters import FIGURES
 from tests.fmu_build.runtime.generated_models import generate
 from tests.fmu_build.runtime.runtime_unit import OK, Counters, Library, Unit, compile_model
+from tests.sampling import spread
 
 Floats = NDArray[np.float64]
 
@@ -60,8 +61,7 @@ def off(one: Run, other: Run) -> Floats:
     return np.array([distances[0], distances[1:].max()])
 
 
-@pytest.mark.parametrize("step", [0.001, 0.003, 0.01, 0.03])
-@pytest.mark.parametrize("amplitude", [3.0, 10.0, 200.0])
+@pytest.mark.parametrize(("amplitude", "step"), spread([3.0, 10.0, 200.0], [0.001, 0.003, 0.01, 0.03]))
 def test_error_is_at_most_twice_that_of_a_constant_input(car_trailer: Library, amplitude: float, step: float) -> None:
     changing, constant = (
         off(*(drive(car_trailer, "8", ripple, step, tolerance) for tolerance in (1e-6, 1e-11)))

@@ -14,6 +14,7 @@ from fmu_build.codegen import elimination as c_elimination
 from fmu_build.codegen.elimination import print_elimination
 from fmu_build.equations.elimination import eliminate
 from fmu_build.fmu.compile import RUNTIME, WARNINGS, compiler
+from tests.sampling import sampled
 
 EPSILON = np.finfo(float).eps
 VARIABLES = """
@@ -183,7 +184,7 @@ def test_the_pattern_holds_all_that_fills(tmp_path: Path) -> None:
         np.testing.assert_allclose(product, (1e3 * np.eye(12) - jacobian)[order], rtol=1e-9, atol=1e-6)
 
 
-@pytest.mark.parametrize("name", SYSTEMS)
+@pytest.mark.parametrize("name", sampled(SYSTEMS, ["reactions", "scattered"]))
 def test_stiff_systems(name: str, tmp_path: Path) -> None:
     """Steps of a millisecond and of a second. What digits are lost, beyond those that rounding the matrix costs, is
     told."""

@@ -119,6 +119,7 @@ def test_prothero_robinson(unit: Callable[..., Unit], rate: float) -> None:
     assert u.counters().steps < 500
 
 
+@pytest.mark.full
 def test_van_der_pol(unit: Callable[..., Unit]) -> None:
     def radau(tolerance: float) -> Any:
         return solve_ivp(
