@@ -45,16 +45,18 @@ def build_fmu(
 ) -> None:
     """Build an FMU from Modelica, for this machine or for others."""
     from .errors import BuildError
-    from .pipeline import build, show
+    from .rebuild import rebuild
 
     if stage is not None and output is None:
+        from .pipeline import show
+
         typer.echo(show(modelica, class_name, stage, libraries or ()), nl=False)
         return
     if output is None or stage is not None:
         raise BuildError("name either the FMU to write (-o OUT.fmu) or a stage to look at (--show STAGE)")
     names = [name.strip() for name in platforms.split(",") if name.strip()]
     with _progress(shown=names != ["host"], verbose=verbose) as progress:
-        build(modelica, class_name, output, fmi, names, progress, libraries=libraries or ())
+        rebuild(modelica, class_name, output, fmi, names, progress, libraries or ())
     typer.echo(output)
 
 

@@ -14,7 +14,7 @@
     simulate           Modelica text -> Simulation: another tool's results
     contents           FlatModel, Interface, CSources, Simulations -> files: all of the FMU but its binaries
     binaries           files -> files: a library for each platform
-    write_fmu          files -> the FMU
+    packed             files -> the FMU
 
 The values in between are those of ``ir``.
 """
@@ -32,9 +32,9 @@ from .equations.initialize import initialize
 from .equations.jacobian import differentiate
 from .equations.lower import lower
 from .equations.sort import sort
-from .fmu.archive import check_output, write_fmu
+from .fmu.archive import check_output, packed, write
 from .fmu.binaries import binaries
-from .fmu.compile import named_platforms
+from .fmu.compile import Platform, named_platforms
 from .fmu.contents import contents
 from .fmu.interface import expose, model_identifier
 from .fmu.ports import declare
@@ -63,6 +63,19 @@ def build(
     """
     chosen = named_platforms(platforms)
     check_output(output)
+    write(output, made(modelica, class_name, fmi, chosen, progress, references, libraries))
+
+
+def made(
+    modelica: Path,
+    class_name: str,
+    fmi: int,
+    platforms: Sequence[Platform],
+    progress: Callable[[str], object],
+    references: bool = True,
+    libraries: Sequence[Path] = (),
+) -> bytes:
+    """The FMU that ``build`` writes."""
     identifier = model_identifier(class_name)
     progress("reading Modelica")
     flat = flatten(modelica, class_name, libraries)
@@ -81,9 +94,9 @@ def build(
     examples = flat.examples if references else ()
     simulations = [simulate(modelica, example, libraries) for example in examples]
     files = contents(flat, interface, generated, simulations, fmi)
-    compiled = binaries(files, identifier, chosen, fmi, progress)
+    compiled = binaries(files, identifier, platforms, fmi, progress)
     progress("packing")
-    write_fmu(output, files | compiled)
+    return packed(files | compiled)
 
 
 def show(modelica: Path, class_name: str, stage: str, libraries: Sequence[Path] = ()) -> str:

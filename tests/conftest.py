@@ -14,6 +14,9 @@ from hypothesis import settings
 # Matrices here are tiny, and the tests keep every core busy by themselves. Read when numpy is imported, below.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+# What tests build is built; what is kept of it is tests/kept.py's affair.
+os.environ["FMU_BUILD_CACHE"] = ""
+
 from fmu_build.fmu.compile import compiler
 from overrun_hitch.fmu.messages import listening
 from tests.kept import LIBRARY, kept_fmus, prune

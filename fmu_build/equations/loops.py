@@ -11,7 +11,6 @@ from collections.abc import Mapping, Sequence
 
 import networkx as nx
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
 from ..ir.equations import Assignment, Equation, Loop, Variable
 from ..ir.linear import ZERO, rest, slope, slopes_by, switching_symbols
@@ -58,6 +57,8 @@ def _rematch(names: Sequence[str], equations: Sequence[Equation]) -> tuple[list[
     Unknowns that stand in nonlinear terms come last: it is those that Newton's method should look for. (Of a diode the
     voltage: the current follows from it by an exponential, and a search for the current would have to invert that.)
     """
+    from scipy.optimize import linear_sum_assignment  # here, because it takes a quarter of a second
+
     slopes = [{s.name: e.residual.diff(s) for s in e.residual.free_symbols} for e in equations]
     bent = {name for row in slopes for name, value in row.items() if value.has(symbol(name))}
     cost = np.full((len(equations), len(names)), 1e6)

@@ -13,7 +13,6 @@ from graphlib import CycleError, TopologicalSorter
 import numpy as np
 import sympy
 from numpy.typing import NDArray
-from scipy.linalg import qr
 
 from ..ir.equations import Equation, Variable, symbols_of
 from ..ir.symbols import TIME, symbol
@@ -57,6 +56,8 @@ def free_coordinates(
     motions = directions[rank:, [list(unknowns).index(name) for name in states]] * weights
     if motions.size == 0:
         return list(states)
+    from scipy.linalg import qr  # here, because it takes a quarter of a second, and few models need it
+
     _, order = qr(motions, mode="r", pivoting=True)
     return [states[i] for i in order]
 

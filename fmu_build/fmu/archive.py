@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import io
 import os
 import tempfile
 import uuid
@@ -34,24 +35,32 @@ def check_output(output: Path) -> None:
         raise BuildError(f"cannot write {output}: {there} is no folder")
 
 
-def write_fmu(output: Path, files: Mapping[str, bytes]) -> None:
-    """Write ``files`` (path in the archive to content) to ``output``: all of it, or nothing and BuildError."""
+def packed(files: Mapping[str, bytes]) -> bytes:
+    """The FMU with these ``files`` (path in the archive to content)."""
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name in sorted(files):
+            entry = zipfile.ZipInfo(name, EPOCH)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.external_attr = 0o644 << 16
+            archive.writestr(entry, files[name])
+    return stream.getvalue()
+
+
+def write(output: Path, fmu: bytes) -> None:
+    """Write an FMU to ``output``: all of it, or nothing and BuildError."""
     try:
         output.parent.mkdir(parents=True, exist_ok=True)
-        _replace(output, files)
+        _replace(output, fmu)
     except OSError as error:
         raise BuildError(f"cannot write {output}: {error.strerror or error}") from None
 
 
-def _replace(output: Path, files: Mapping[str, bytes]) -> None:
+def _replace(output: Path, fmu: bytes) -> None:
     handle, temporary = tempfile.mkstemp(prefix=".fmu_build-", dir=output.parent)
     try:
-        with os.fdopen(handle, "wb") as stream, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
-            for name in sorted(files):
-                entry = zipfile.ZipInfo(name, EPOCH)
-                entry.compress_type = zipfile.ZIP_DEFLATED
-                entry.external_attr = 0o644 << 16
-                archive.writestr(entry, files[name])
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(fmu)
         os.chmod(temporary, 0o644)
         os.replace(temporary, output)
     except BaseException:

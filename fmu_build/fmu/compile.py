@@ -10,7 +10,7 @@ import shlex
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -33,6 +33,8 @@ WEBASSEMBLY = (
     "-mexec-model=reactor",
     "-Wl,--export-dynamic,--export=malloc,--export=free,--export-table,--growable-table",
 )
+# What else compilers read of their surroundings (CFLAGS is ours).
+ENVIRONMENT = ("CPATH", "C_INCLUDE_PATH", "LIBRARY_PATH", "SDKROOT", "MACOSX_DEPLOYMENT_TARGET")
 
 
 @dataclass(frozen=True)
@@ -119,6 +121,23 @@ def compiler() -> list[str]:
         name = command[0] if command else text
         raise BuildError(f"no C compiler: {name!r} was not found; install gcc or clang, or set CC to a C11 compiler")
     return zig
+
+
+def compilers(platforms: Sequence[Platform]) -> Iterator[str]:
+    """What compiles for each platform: the command and, of this machine's own compiler, all that it says of itself.
+
+    That is its version, where it looks for its parts, and what -march=native means here. zig has the version of its
+    package, and knows nothing of this machine. Raises BuildError where there is none.
+    """
+    for platform in platforms:
+        command = _command(platform, "")
+        yield from (platform.name, *command)
+        if platform.zig_target is None:
+            asked = [*command, "-###", "-E", "-xc", os.devnull]
+            told = subprocess.run(asked, capture_output=True, text=True, errors="replace", check=False)
+            where = os.path.realpath(shutil.which(command[0]) or command[0])
+            yield from (told.stdout, told.stderr, where, str(os.stat(where).st_mtime_ns))
+    yield from (f"{name}={os.environ.get(name)}" for name in ENVIRONMENT)
 
 
 def _words(variable: str, text: str) -> list[str]:

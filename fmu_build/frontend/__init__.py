@@ -1,3 +1,3 @@
 """Modelica text to a FlatModel; the only place that knows rumoca."""
 
-__all__ = ["flatten", "simulate"]
+__all__ = ["flatten", "loading", "simulate"]

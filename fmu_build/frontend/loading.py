@@ -13,11 +13,13 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from ..cache import Part, kept, tools
 from ..errors import BuildError
+from .source_tree import library_of, whole_tree
 from .sources import Sources
 
 TIME_LIMIT = 600.0  # s; all of the Modelica Standard Library takes rumoca 25
@@ -55,10 +57,35 @@ def _entry(path: Path) -> Path:
     return entry
 
 
+def readable_files(path: Path, libraries: Sequence[Path]) -> Iterator[Part]:
+    """All that may be read for a class of a file or a library's folder: with what is beside, and other libraries.
+
+    Raises BuildError as ``load`` where there is no such file or folder.
+    """
+    tree = whole_tree(_entry(path), [*map(_library, libraries)])
+    own, *others = (Path(os.path.abspath(p)) for p in (library_of(tree.entry), *tree.libraries, *tree.modelica_path))
+    yield from sorted(file for file in own.parent.glob("*.mo") if file.is_file())
+    for place, top in enumerate((own, *others)):
+        yield f"{'library' if place <= len(libraries) else 'MODELICAPATH'} {top}"  # also if there is nothing in it
+        yield from sorted(file for kind in ("*.mo", "package.order") for file in top.rglob(kind) if file.is_file())
+
+
 def _ask(entry: Path, class_name: str, libraries: Sequence[Path], **simulation: list[float]) -> dict[str, Any]:
-    """What the process answers."""
+    """What the process answers, or has answered before."""
     request: dict[str, Any] = {"entry": str(entry), "class_name": class_name, "libraries": [*map(_library, libraries)]}
     request |= {"times": [], "tolerances": []} | simulation
+
+    def parts() -> Iterator[Part]:
+        yield from (json.dumps(request), *tools())
+        yield from sorted(Path(__file__).parent.rglob("*.py"))
+        yield from readable_files(entry, libraries)
+
+    answer: dict[str, Any] = json.loads(kept(parts, lambda: _answer(request, entry, class_name)))
+    return answer
+
+
+def _answer(request: Mapping[str, Any], entry: Path, class_name: str) -> bytes:
+    """JSON. BuildError for an error."""
     with tempfile.TemporaryDirectory(prefix="fmu_build-") as folder:
         answer = Path(folder) / "answer.json"
         answer.with_name("request.json").write_text(json.dumps(request), encoding="utf-8")
@@ -72,10 +99,10 @@ def _ask(entry: Path, class_name: str, libraries: Sequence[Path], **simulation: 
             raise BuildError(f"{entry}: {class_name}: rumoca does not come to an end within {TIME_LIMIT:g} s") from None
         if ended.returncode != 0:
             raise BuildError(_death(ended, entry, class_name))
-        found: dict[str, Any] = json.loads(answer.read_text(encoding="utf-8"))
-    if "error" in found:
-        raise BuildError(found["error"])
-    return found
+        content = answer.read_bytes()
+    if content.startswith(b'{"error": '):
+        raise BuildError(json.loads(content)["error"])
+    return content
 
 
 def _library(folder: Path) -> str:

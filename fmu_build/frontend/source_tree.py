@@ -42,7 +42,7 @@ def copy_of_needed(tree: SourceTree, class_name: str, folder: Path, beside: bool
 
     Files lie in it as in the originals, so that folders may contain each other.
     """
-    own = _library_of(tree.entry)
+    own = library_of(tree.entry)
     tops = [own] if own.is_dir() or not beside else sorted(own.parent.glob("*.mo"))
     others = [path for path in (*tree.libraries, *tree.modelica_path) if path.is_dir()]
     tops += [package for other in others for package in packages(other)]
@@ -63,7 +63,7 @@ def copy_of_needed(tree: SourceTree, class_name: str, folder: Path, beside: bool
     )
 
 
-def _library_of(entry: Path) -> Path:
+def library_of(entry: Path) -> Path:
     """The outermost package around a file; a file that is in none, itself."""
     own = entry
     while (own.absolute().parent / "package.mo").is_file():

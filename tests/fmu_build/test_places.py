@@ -59,7 +59,7 @@ def test_a_disk_that_is_full_in_the_middle(
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(archive.zipfile.ZipFile, "writestr", full)
+    monkeypatch.setattr(archive.os, "chmod", full)
     assert said(["Decay.mo", "Decay", "-o", "new/a.fmu"], capsys) == "cannot write new/a.fmu: No space left on device"
     assert list((decay / "new").iterdir()) == []
 

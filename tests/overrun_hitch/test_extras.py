@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-EXTRAS = ["dask", "distributed", "locket", "zarr", "SALib", "rumoca", "sympy", "networkx", "nh3", "threadpoolctl"]
+EXTRAS = ["dask", "distributed", "locket", "zarr", "SALib", "threadpoolctl"]
+EXTRAS += ["rumoca", "sympy", "networkx", "nh3", "platformdirs"]
 WITHOUT = "import sys; sys.modules.update(dict.fromkeys({packages!r})); "  # what is None there can't be imported
 HITCH = "from overrun_hitch.__main__ import main; sys.exit(main())"
 API = "import overrun_hitch as hitch; hitch.sweep({}, 'store')"

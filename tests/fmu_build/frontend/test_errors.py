@@ -124,7 +124,7 @@ def test_stages_and_their_times_on_request(modelica_file: Writer, tmp_path: Path
     lines = result.stderr.splitlines()
     seconds = [float(line.split()[-2]) for line in lines]
     assert result.returncode == 0 and all(line.startswith("fmu_build: ") and line.endswith(" s") for line in lines)
-    assert [line.split()[1] for line in lines[:1] + lines[-1:]] == ["reading", "in"]
+    assert [line.split()[1] for line in lines[:1] + lines[-1:]] == ["loading", "in"]
     assert sum(seconds[:-1]) == pytest.approx(seconds[-1], abs=0.1)
 
 
