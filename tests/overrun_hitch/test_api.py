@@ -134,6 +134,14 @@ def test_a_profile_and_a_grade() -> None:
     assert set(table["not_judged"]) == {"grade = -0.1: the road is not level"}
 
 
+def test_what_is_asked_for_beside_makes_no_difference() -> None:
+    """A run is read for the outputs asked for alone."""
+    whole = hitch.run_many({"C": C}, outputs=["compression", "F_hitch", "v_car"], metrics=["peak_jerk"])
+    for name in ("compression", "F_hitch", "v_car"):
+        assert whole[name].identical(hitch.run_many({"C": C}, outputs=[name])[name])
+    assert whole["peak_jerk"].identical(hitch.run_many({"C": C}, outputs=[], metrics=["peak_jerk"])["peak_jerk"])
+
+
 @pytest.mark.parametrize("workers", [1, 2])
 def test_where_it_runs_makes_no_difference(workers: int) -> None:
     here = hitch.run_many({"C": C, "eps": EPS}, metrics=["growth_rate"])
