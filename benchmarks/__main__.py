@@ -17,6 +17,7 @@ from threadpoolctl import threadpool_limits
 from benchmarks import (
     comparison,
     fmu_contenders,
+    many,
     rumoca_contenders,
     scipy_contenders,
     six_seconds,
@@ -84,7 +85,7 @@ def main() -> int:
         in_c, within = six_seconds.section(fmu, folder)
         by_step = steps.section([fmu, trailer], folder)
     sweeps, cheap = sweep.section(fmu)
-    text = "\n".join([head(), against, DIAGRAM.lstrip(), in_c.rstrip() + "\n", by_step, sweeps])
+    text = "\n".join([head(), against, DIAGRAM.lstrip(), in_c.rstrip() + "\n", by_step, sweeps, many.section()])
     (HERE / PICTURE).write_bytes(picture)
     (HERE / "results.md").write_text(text, encoding="utf-8")
     print(text)

@@ -2,15 +2,23 @@
 
     python -m benchmarks.many
 
-Both in this process in turns, 100 output points, two outputs; the results must be the same to the
-bit. CPU times are medians of the rounds.
+In this process in turns, 100 output points, two outputs; the results must be the same to the bit. The same runs out of
+a loop in C (many.c) tell what the unit takes by itself, below which no way gets.
 """
 
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import io
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
 from time import process_time
+from typing import Any
 
 import fmpy
 import numpy as np
@@ -18,11 +26,14 @@ from fmpy.fmi2 import FMU2Slave
 
 import overrun_hitch as hitch
 from benchmarks.comparison import in_turns
+from fmu_build.fmu.compile import compiler
 
 C, EPS = np.linspace(100.0, 2000.0, 40), np.linspace(0.0, 0.1, 25)
 OUTPUTS = ["compression", "a_car"]
-ROUNDS = 5
-AT_LEAST = 4.0  # times the CPU time of run_many
+TIMES = np.append(0.06 * np.arange(100), 6.0)
+ROUNDS = 11
+WANTED = 4.0  # times the CPU time of run_many
+HERE = Path(__file__).parent
 
 
 class Fmpy:
@@ -53,30 +64,84 @@ class Fmpy:
         return [result[name].tolist() for name in OUTPUTS]
 
 
+class Alone:
+    """The same instance, its runs out of C."""
+
+    def __init__(self, by_fmpy: Fmpy, folder: Path) -> None:
+        library = folder / "many.so"
+        subprocess.run([*compiler(), "-O2", "-shared", "-fPIC", str(HERE / "many.c"), "-o", str(library)], check=True)
+        references = {variable.name: variable.valueReference for variable in by_fmpy.description.modelVariables}
+        self._unit = by_fmpy.unit
+        self._varied = [references[name] for name in ("C", "eps", "brake_torque")]
+        self._table = np.empty((len(TIMES), len(OUTPUTS)))
+        self._outputs = (ctypes.c_uint * len(OUTPUTS))(*[references[name] for name in OUTPUTS])
+        self._run = ctypes.CDLL(str(library))["run"]
+        functions = [ctypes.cast(self._unit.dll[name], ctypes.c_void_p) for name in ("fmi2DoStep", "fmi2GetReal")]
+        sizes = [ctypes.c_size_t(n) for n in self._table.shape]
+        times, values = (ctypes.c_void_p(array.ctypes.data) for array in (TIMES, self._table))
+        unit = ctypes.c_void_p(self._unit.component)
+        self._arguments = (*functions, unit, self._outputs, sizes[1], times, sizes[0], values)
+
+    def run_many(self) -> np.ndarray:
+        """Values (C, eps, outputs, points)."""
+        return np.array([[self.run(damper, clearance) for clearance in EPS] for damper in C])
+
+    def run(self, damper: float, clearance: float) -> np.ndarray:
+        """One of them."""
+        self._unit.reset()
+        self._unit.setReal(self._varied, [damper, clearance, 1000.0])
+        self._unit.setupExperiment(tolerance=1e-6, startTime=0.0, stopTime=6.0)
+        self._unit.enterInitializationMode()
+        self._unit.exitInitializationMode()
+        if status := self._run(*self._arguments):
+            raise RuntimeError(f"the unit ends with status {status}")
+        return self._table.T.copy()
+
+
 def ours() -> np.ndarray:
     """The same by run_many."""
     many = hitch.run_many({"C": C.tolist(), "eps": EPS.tolist()}, outputs=OUTPUTS, progress=lambda *_: None)
     return np.stack([many[name].values for name in OUTPUTS], axis=2)
 
 
-def main() -> None:
-    """Measure and print."""
+def section() -> str:
+    """For results.md. RuntimeError where the ways do not give the same bits."""
     by_fmpy = Fmpy()
-    ways = (ours, by_fmpy.run_many)
-    values = [way() for way in ways]  # and everything is loaded
-    times = np.median(in_turns([lambda way=way: _cpu_time(way) for way in ways], ROUNDS, "many runs"), axis=0)
+    with tempfile.TemporaryDirectory(prefix="benchmark-") as name:
+        ways: dict[str, Callable[[], Any]] = {
+            "`hitch.run_many`": ours, "FMPy, one instance": by_fmpy.run_many,
+            "the unit alone, from C": Alone(by_fmpy, Path(name)).run_many,
+        }  # fmt: skip
+        first, *others = [way() for way in ways.values()]  # and everything is loaded
+        if not all((values == first).all() for values in others):
+            raise RuntimeError("run_many, FMPy and C do not give the same bits")
+        each = in_turns([lambda way=way: _cpu_time(way) for way in ways.values()], ROUNDS, "many runs")
     by_fmpy.unit.freeInstance()
-    equal = "the same to the bit" if (values[0] == values[1]).all() else "NOT THE SAME"
-    print(f"{C.size * EPS.size} runs: run_many {times[0]:.2f} s, FMPy {times[1]:.2f} s of CPU time; results {equal}")
-    ratio = times[1] / times[0]
-    print(f"FMPy over run_many: {ratio:.1f}, at least {AT_LEAST:g}: {'met' if ratio >= AT_LEAST else 'missed'}")
+    times = np.median(each, axis=0) / (C.size * EPS.size)
+    over = np.median(each / each[:, :1], axis=0)
+    rows = [
+        f"| {name} | {1e3 * time:.3f} ms | {ratio:.2f} |" for name, time, ratio in zip(ways, times, over, strict=True)
+    ]
+    return f"""## Many runs
+
+{C.size * EPS.size} step brakes of 6 s varying C and eps, 100 output points, two outputs: the same bits. CPU time of
+whole calls, user and system (none has other processes), medians of {ROUNDS} rounds in which each had its turn; the load
+average was {os.getloadavg()[0]:.1f} at the end. `python -m benchmarks.many` prints this section.
+
+| | CPU time a run | over run_many |
+|---|---|---|
+{chr(10).join(rows)}
+
+FMPy over `run_many`: {over[1]:.1f}; wanted: {WANTED:g}. No way can reach more than FMPy over the unit alone:
+{over[1] / over[2]:.1f}.
+"""
 
 
-def _cpu_time(way: object) -> float:
+def _cpu_time(way: Callable[[], Any]) -> float:
     begin = process_time()
-    way()  # type: ignore[operator]
+    way()
     return process_time() - begin
 
 
 if __name__ == "__main__":
-    main()
+    sys.stdout.write(section())

@@ -24,10 +24,10 @@ from threadpoolctl import threadpool_limits
 
 from overrun_hitch.fmu.opening import opened_unit
 from overrun_hitch.measure.metrics import NEEDED, Traces, measured
-from overrun_hitch.results import VARIABLES
 from overrun_hitch.sweeps.engine import run_plan
 from overrun_hitch.sweeps.plan import Plan
 from overrun_hitch.sweeps.planner import planned
+from overrun_hitch.sweeps.runner import read
 from overrun_hitch.sweeps.spec import SweepSpec
 
 RANGES = {"C": {"min": 100.0, "max": 1000.0}, "V_0": {"min": 20.0, "max": 40.0}, "M_t": {"min": 300.0, "max": 700.0}}
@@ -41,7 +41,8 @@ def bare(plan: Plan, fmu: Path, runs: int) -> tuple[float, float]:
     job = plan.job
     columns = [plan.columns[name].tolist() for name in job.varied]
     with opened_unit(fmu) as unit, threadpool_limits(limits=1):
-        sampler = unit.sampler(list(VARIABLES), job.points)
+        names = read(job)
+        sampler = unit.sampler(names, job.points)
         wall, cpu = time.perf_counter(), time.process_time()
         for first in range(0, runs, AT_ONCE):
             rows = []
@@ -49,7 +50,7 @@ def bare(plan: Plan, fmu: Path, runs: int) -> tuple[float, float]:
                 values = {name: column[run] for name, column in zip(job.varied, columns, strict=True)}
                 unit.start_with({**job.fixed, **values}, job.relative_tolerance)
                 rows.append(sampler.run().copy())
-            table = dict(zip(VARIABLES, np.array(rows).transpose(2, 0, 1), strict=True))
+            table = dict(zip(names, np.array(rows).transpose(2, 0, 1), strict=True))
             measured(job.metrics, Traces(job.points, {name: table[name] for name in NEEDED}, np.zeros(AT_ONCE)))
         return (time.perf_counter() - wall) / runs, (time.process_time() - cpu) / runs
 

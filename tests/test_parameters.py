@@ -79,11 +79,16 @@ def test_names_in_the_order_in_which_they_are_declared(unit: Unit) -> None:
 def test_units_and_defaults_in_the_docs() -> None:
     text = (ROOT / "docs" / "parameters.md").read_text(encoding="utf-8")
     rows = re.findall(
-        r"^\| (`.*?), [^|]* \| (\S+) \| ([^ ,|]+)[^|]* \|", text.partition("These are constants")[0], re.M
-    )
-    told = {name: (unit, float(default)) for names, unit, default in rows for name in re.findall(r"`(\w+)`", names)}
+        r"^\| ((?:`\w+`, )+)[^|]* \| (\S+) \| ([^ ,|]+)[^|]* \| (.*?) \| (.*?) \|$",
+        text.partition("These are constants")[0], re.M,
+    )  # fmt: skip
+    told = {name: row for names, *row in rows for name in re.findall(r"`(\w+)`", names)}
     assert told.keys() >= {*Parameters.having("theory", "neutral")}
-    assert told == {name: (Parameters.unit(name), getattr(DATUM, name)) for name in told}
+    assert told.keys() == {name for name in NAMES if Parameters.typical(name)} - {"V_0"}
+    for name, (unit, default, typical, source) in told.items():
+        assert (unit, float(default)) == (Parameters.unit(name), getattr(DATUM, name))
+        assert typical.replace("`", "") == Parameters.typical(name)
+        assert source.startswith(Parameters.source(name)) and Parameters.source(name)
 
 
 @pytest.mark.parametrize("name", NAMES)

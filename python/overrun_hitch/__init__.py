@@ -7,6 +7,7 @@ hitch.compare(result)                               # against linear theory: pan
 hitch.plot(result).savefig("figure.png")
 hitch.run_many({"C": [100, 200], "eps": [0, 0.1]})  # thousands of runs in one table
 hitch.stability("ii", V=[10, 40])["C_crit"]         # the damper that is just enough
+hitch.fit("bench.csv").estimates                    # a drawbar's parameters from what was measured
 hitch.fmu_path("Trailer", fmi=3)                    # the file, for a simulator
 """
 
@@ -16,8 +17,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from overrun_hitch.api import compare, crosscheck, fmu_path, plot, run, run_many, stability, sweep
-    from overrun_hitch.fitting.fit import fit
+    from overrun_hitch.api import compare, crosscheck, fit, fmu_path, plot, run, run_many, stability, sweep
     from overrun_hitch.fitting.trace import Trace
     from overrun_hitch.parameters import CASES, FIGURES, HitchError, Parameters
 
@@ -26,9 +26,10 @@ if TYPE_CHECKING:
 # Where each name is at home: loaded only when it is asked for, because the independent check needs numpy alone, and
 # nobody should wait for what is not used.
 _HOMES = {
-    **dict.fromkeys(("compare", "crosscheck", "fmu_path", "plot", "run", "run_many", "stability", "sweep"), "api"),
+    **dict.fromkeys(
+        ("compare", "crosscheck", "fit", "fmu_path", "plot", "run", "run_many", "stability", "sweep"), "api"
+    ),
     **dict.fromkeys(("CASES", "FIGURES", "HitchError", "Parameters"), "parameters"),
-    "fit": "fitting.fit",
     "Trace": "fitting.trace",
 }
 __all__ = ["CASES", "FIGURES", "HitchError", "Parameters", "Trace", "__version__", "compare", "crosscheck", "fit",

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from overrun_hitch.experiments.torque import Torque
+    from overrun_hitch.fitting.fit import Fit
+    from overrun_hitch.fitting.trace import Trace
     from overrun_hitch.sweeps.job import Progress
     from overrun_hitch.sweeps.spec import SweepSpec
 
@@ -280,6 +282,45 @@ def stability(
     data["C_crit"] = ("V", [each.C_crit for each in study.boundaries], {"units": UNITS["C_crit"]})
     axes: dict[str, Any] = {"V": ("V", speeds, {"units": "m/s"}), "C": ("C", dampers, {"units": "N.s/m"})}
     return xr.Dataset(data, axes, {"title": name, **study.parameters.model_dump()})
+
+
+def fit(
+    trace: Trace | Mapping[Any, Any] | pd.DataFrame | str | Path,
+    names: Sequence[str] | None = None,
+    *,
+    columns: Mapping[str, str] | None = None,
+    units: Mapping[str, str] | None = None,
+    fmu: str | Path | None = None,
+    **parameters: float,
+) -> Fit:
+    """A drawbar's parameters from a trace: what was measured, in SI units.
+
+    A file (CSV, MAT, Parquet or MDF), a table or a result of `run`: time, compression, F_hitch and, where they were
+    measured, v_rel and trailer_brake_torque, (n,) each. columns: of a file, what they are called there; units: theirs,
+    else those in its header, else SI. names: the parameters to fit, else those that the trace tells; `parameters`: the
+    others', where they are not figure 8's. fmu: a Bench.fmu of one's own.
+
+    The result has `estimates` (name, value, standard_error, interval, told) and `parameters` (docs/fit.md).
+
+    >>> found = fit(run("8", C=300), ["k", "C"])
+    >>> {each.name: round(each.value / 10) * 10 for each in found.estimates}
+    {'k': 5480, 'C': 300}
+    """
+    import numpy as np
+
+    from overrun_hitch.fitting.columns import read_trace
+    from overrun_hitch.fitting.fit import fit as search
+    from overrun_hitch.fitting.trace import UNITS, Trace
+    from overrun_hitch.parameters import DATUM
+
+    if isinstance(trace, str | Path):
+        trace, _ = read_trace(Path(trace), columns or {}, units or {})
+    elif not isinstance(trace, Trace):
+        missing = [name for name in ("time", "compression", "F_hitch") if name not in trace]
+        if missing:
+            raise HitchError(f"the trace has no {missing[0]}; allowed: {', '.join(UNITS)}")
+        trace = Trace(**{name: np.asarray(trace[name], dtype=np.float64) for name in UNITS if name in trace})
+    return search(trace, DATUM.changed(parameters), names, fmu_path("Bench") if fmu is None else Path(fmu))
 
 
 def plot(result: xr.Dataset) -> Figure:

@@ -22,6 +22,7 @@ from overrun_hitch.commands.crosscheck import crosscheck
 from overrun_hitch.commands.fit import fit
 from overrun_hitch.commands.optimise import optimise
 from overrun_hitch.commands.paper import paper
+from overrun_hitch.commands.parameters import parameters
 from overrun_hitch.commands.reference import reference
 from overrun_hitch.commands.report import report
 from overrun_hitch.commands.run import run
@@ -108,3 +109,4 @@ app.command()(fit)
 app.command()(paper)
 app.command()(report)
 app.command()(cases)
+app.command()(parameters)

@@ -46,8 +46,22 @@ class Quantities(BaseModel):
     @classmethod
     def unit(cls, name: str) -> str:
         """Unit of the quantity `name`, as the FMU writes it ("N.s/m")."""
+        return cls._said(name, "unit")
+
+    @classmethod
+    def typical(cls, name: str) -> str:
+        """Values of the quantity `name` on the road, in its unit, in words; "" where none are said."""
+        return cls._said(name, "typical")
+
+    @classmethod
+    def source(cls, name: str) -> str:
+        """Whose the default and what is typical are; "" where it is not said."""
+        return cls._said(name, "source")
+
+    @classmethod
+    def _said(cls, name: str, what: str) -> str:
         extra = cls.model_fields[name].json_schema_extra
-        return str(extra["unit"]) if isinstance(extra, dict) else ""
+        return str(extra[what]) if isinstance(extra, dict) else ""
 
     @classmethod
     def having(cls, role: Literal["of", "theory"], *values: Owner | InTheory) -> tuple[str, ...]:
@@ -96,13 +110,20 @@ class Quantities(BaseModel):
 
 
 def quantity(
-    default: Any, unit: str, description: str, of: Owner | None = None, theory: InTheory | None = None, **limits: float
+    default: Any,
+    unit: str,
+    description: str,
+    of: Owner | None = None,
+    theory: InTheory | None = None,
+    typical: str = "",
+    source: str = "",
+    **limits: float,
 ) -> Any:
     """Declare a quantity: default (... if there is none), unit, meaning, limits as pydantic spells them (ge, le).
 
-    Each of Parameters also says whose it is and what linear theory makes of it.
+    Each of Parameters also says whose it is, what linear theory makes of it, what is typical and who says so.
     """
-    extra = {"unit": unit, "of": of, "theory": theory}
+    extra = {"unit": unit, "of": of, "theory": theory, "typical": typical, "source": source}
     return Field(default, description=description, json_schema_extra=extra, **limits)  # type: ignore[call-overload]
 
 
@@ -143,76 +164,91 @@ STRONGEST = 1e6  # N, of friction, which is stiff where it sticks
 SLOWEST = 1e3  # s
 
 
+# Whose numbers they are; docs/parameters.md says where to find them.
+SECTION_7 = "the paper, section 7"
+SECTION_8 = "the paper, section 8"
+CHRONO = "tyres of Project Chrono"
+UN_R13 = "UN Regulation No. 13, from memory"
+
+
 class Parameters(Quantities):
     """The car, the trailer, the drawbar and the start, in the paper's symbols. The defaults are figure 8."""
 
-    M_c: float = quantity(1000.0, "kg", "mass of the car", "car", "exact", ge=1.0, le=MOST)
-    M_t: float = quantity(500.0, "kg", "mass of the trailer", "trailer", "exact", ge=1.0, le=MOST)
-    I_c: float = quantity(5.0, "kg.m2", "lumped wheel inertia of the car", "car", "exact", ge=0.001, le=GREATEST)
-    I_t: float = quantity(
-        2.5, "kg.m2", "lumped wheel inertia of the trailer", "trailer", "exact", ge=0.001, le=GREATEST
-    )
-    R_c: float = quantity(0.35, "m", "wheel radius of the car", "car", "exact", ge=0.01, le=WIDEST)
-    R_t: float = quantity(0.35, "m", "wheel radius of the trailer", "trailer", "exact", ge=0.01, le=WIDEST)
-    C_kc: float = quantity(400e3, "N", "braking force per unit slip of the car", "car", "exact", ge=1.0, le=MOST)
-    C_kt: float = quantity(
-        200e3, "N", "braking force per unit slip of the trailer", "trailer", "exact", ge=1.0, le=MOST
-    )
-    k: float = quantity(5480.0, "N/m", "drawbar stiffness in compression", "link", "exact", ge=0.0, le=MOST)
-    k_t: float = quantity(548e3, "N/m", "drawbar stiffness in tension", "link", "exact", ge=0.0, le=MOST)
-    C: float = quantity(500.0, "N.s/m", "drawbar damper coefficient", "link", "exact", ge=0.0, le=MOST)
-    r: float = quantity(
-        2.975 * 5480.0,
-        "N.m/m",
-        "trailer brake torque per unit of drawbar compression",
-        "link",
-        "exact",
-        ge=0.0,
-        le=MOST,
-    )
-    eps: float = quantity(0.0, "m", "drawbar clearance", "trailer", "exact", ge=0.0, le=LONGEST)
-    F_pull_max: float = quantity(
-        1e9, "N", "largest pull of the damper in a drawbar that is pushed in", "trailer", "small", ge=0.0, le=GREATEST
-    )
-    rebound: float = quantity(
-        1.0, "1", "damper coefficient while the drawbar springs back, over C", "trailer", "approximate", ge=0.0, le=MOST
-    )
-    F_f: float = quantity(0.0, "N", "dry friction of the drawbar's guide", "link", "large", ge=0.0, le=STRONGEST)
-    tau_b: float = quantity(
-        0.0,
-        "s",
-        "lag of the trailer's brake torque behind the drawbar compression",
-        "trailer",
-        "exact",
-        ge=0.0,
-        le=SLOWEST,
-    )
-    F_0: float = quantity(
-        0.0, "N", "push up to which the drawbar gives by k_t alone", "link", "exact", ge=0.0, le=GREATEST
-    )
+    # One argument a line, as the formatter has it, would make this table four hundred lines long.
+    # fmt: off
+    M_c: float = quantity(1000.0, "kg", "mass of the car", "car", "exact", ge=1.0, le=MOST, source=SECTION_7)
+    M_t: float = quantity(500.0, "kg", "mass of the trailer", "trailer", "exact", ge=1.0, le=MOST, source=SECTION_7)
+    I_c: float = quantity(5.0, "kg.m2", "lumped wheel inertia of the car", "car", "exact", ge=0.001, le=GREATEST,
+        source=SECTION_7)
+    I_t: float = quantity(2.5, "kg.m2", "lumped wheel inertia of the trailer", "trailer", "exact", ge=0.001,
+        le=GREATEST, source=SECTION_7)
+    R_c: float = quantity(0.35, "m", "wheel radius of the car", "car", "exact", ge=0.01, le=WIDEST, source=SECTION_7)
+    R_t: float = quantity(0.35, "m", "wheel radius of the trailer", "trailer", "exact", ge=0.01, le=WIDEST,
+        source=SECTION_7)
+    C_kc: float = quantity(400e3, "N", "braking force per unit slip of the car", "car", "exact", ge=1.0, le=MOST,
+        source=SECTION_7)
+    C_kt: float = quantity(200e3, "N", "braking force per unit slip of the trailer", "trailer", "exact", ge=1.0,
+        le=MOST, source=SECTION_7)
+    k: float = quantity(5480.0, "N/m", "drawbar stiffness in compression", "link", "exact", ge=0.0, le=MOST,
+        source=SECTION_8)
+    k_t: float = quantity(548e3, "N/m", "drawbar stiffness in tension", "link", "exact", ge=0.0, le=MOST,
+        source=SECTION_8)
+    C: float = quantity(500.0, "N.s/m", "drawbar damper coefficient", "link", "exact", ge=0.0, le=MOST,
+        source=SECTION_8)
+    r: float = quantity(2.975 * 5480.0, "N.m/m", "trailer brake torque per unit of drawbar compression", "link",
+        "exact", ge=0.0, le=MOST, source=SECTION_8)
+    eps: float = quantity(0.0, "m", "drawbar clearance", "trailer", "exact", ge=0.0, le=LONGEST, source=SECTION_8)
+    F_pull_max: float = quantity(1e9, "N", "largest pull of the damper in a drawbar that is pushed in", "trailer",
+        "small", ge=0.0, le=GREATEST,
+        typical="0 for a damper that only pushes and returns by a spring or gas",
+        source="manuals of Hobby's and AL-KO's")
+    rebound: float = quantity(1.0, "1", "damper coefficient while the drawbar springs back, over C", "trailer",
+        "approximate", ge=0.0, le=MOST,
+        typical="1 to 5", source=f"estimated; {UN_R13}")
+    F_f: float = quantity(0.0, "N", "dry friction of the drawbar's guide", "link", "large", ge=0.0, le=STRONGEST,
+        typical="20 to 150", source="estimated")
+    tau_b: float = quantity(0.0, "s", "lag of the trailer's brake torque behind the drawbar compression", "trailer",
+        "exact", ge=0.0, le=SLOWEST,
+        typical="0.01 to 0.1", source="estimated")
+    F_0: float = quantity(0.0, "N", "push up to which the drawbar gives by k_t alone", "link", "exact", ge=0.0,
+        le=GREATEST,
+        typical="0.02 to 0.04 of the trailer's weight: 98 to 196 N", source=f"a manual of Hobby's; {UN_R13}")
     x_2: float = quantity(1e3, "m", "drawbar compression beyond the clearance from which its stiffness is k_2",
-                          "trailer", "exact", ge=0.0, le=LONGEST)  # fmt: skip
-    k_2: float = quantity(5480.0, "N/m", "drawbar stiffness from x_2 on", "link", "exact", ge=0.0, le=MOST)
+        "trailer", "exact", ge=0.0, le=LONGEST,
+        typical="0.02 to 0.08, within the travel", source="estimated")
+    k_2: float = quantity(5480.0, "N/m", "drawbar stiffness from x_2 on", "link", "exact", ge=0.0, le=MOST,
+        typical="1 to 3 times k", source="estimated")
     x_3: float = quantity(1e3, "m", "drawbar compression beyond the clearance from which its stiffness is k_3",
-                          "trailer", "exact", ge=0.0, le=LONGEST)  # fmt: skip
-    k_3: float = quantity(5480.0, "N/m", "drawbar stiffness from x_3 on", "link", "exact", ge=0.0, le=MOST)
-    travel: float = quantity(
-        1e3, "m", "drawbar compression at which it meets the buffer", "trailer", "exact", ge=0.0, le=LONGEST
-    )
-    k_buffer: float = quantity(548e3, "N/m", "drawbar stiffness from there on", "link", "exact", ge=0.0, le=MOST)
-    mu: float = quantity(1e9, "1", "friction between tyres and road", "both", "small", ge=0.01, le=GREATEST)
-    mu_slide: float = quantity(0.75, "1", "friction of wheels that slide, over mu", "both", "small", ge=0.5, le=0.95)
-    sigma: float = quantity(0.0, "m", "relaxation length of the tyres", "both", "exact", ge=0.0, le=LONGEST)
-    CdA_c: float = quantity(0.0, "m2", "drag area of the car", "car", "neutral", ge=0.0, le=MOST)
-    CdA_t: float = quantity(0.0, "m2", "drag area of the trailer", "trailer", "neutral", ge=0.0, le=MOST)
-    C_rr: float = quantity(0.0, "1", "rolling resistance over load", "both", "neutral", ge=0.0, le=MOST)
-    reverse_braking: float = quantity(
-        1.0, "1", "share of the trailer's brake torque that acts backward", "trailer", "outside", ge=0.0, le=1.0
-    )
-    V_0: float = quantity(40.0, "m/s", "speed at the start", "both", "outside", ge=-FASTEST, le=FASTEST)
-    compression_start: float = quantity(
-        0.0, "m", "drawbar compression at the start", "trailer", "outside", ge=-WIDEST, le=WIDEST
-    )
+        "trailer", "exact", ge=0.0, le=LONGEST,
+        typical="0.02 to 0.08, within the travel", source="estimated")
+    k_3: float = quantity(5480.0, "N/m", "drawbar stiffness from x_3 on", "link", "exact", ge=0.0, le=MOST,
+        typical="1 to 3 times k", source="estimated")
+    travel: float = quantity(1e3, "m", "drawbar compression at which it meets the buffer", "trailer", "exact", ge=0.0,
+        le=LONGEST,
+        typical="0.085 to 0.1", source="a manual of Hobby's; one of AL-KO's, from memory")
+    k_buffer: float = quantity(548e3, "N/m", "drawbar stiffness from there on", "link", "exact", ge=0.0, le=MOST,
+        typical="200e3 to 1e6", source="estimated")
+    mu: float = quantity(1e9, "1", "friction between tyres and road", "both", "small", ge=0.01, le=GREATEST,
+        typical="1.0 dry asphalt, 0.3 packed snow", source=f"{CHRONO}; snow from memory")
+    mu_slide: float = quantity(0.75, "1", "friction of wheels that slide, over mu", "both", "small", ge=0.5, le=0.95,
+        typical="0.63 to 0.76 on dry road", source=CHRONO)
+    sigma: float = quantity(0.0, "m", "relaxation length of the tyres", "both", "exact", ge=0.0, le=LONGEST,
+        typical="0.3 to 0.8", source=CHRONO)
+    CdA_c: float = quantity(0.0, "m2", "drag area of the car", "car", "neutral", ge=0.0, le=MOST,
+        typical="0.45 to 0.8", source="a handbook's drag coefficients, an estimated area")
+    CdA_t: float = quantity(0.0, "m2", "drag area of the trailer", "trailer", "neutral", ge=0.0, le=MOST,
+        typical="0.3 for a flat trailer in the car's wake to 3 for a caravan",
+        source="estimated; wind tunnel data of a caravan, second hand")
+    C_rr: float = quantity(0.0, "1", "rolling resistance over load", "both", "neutral", ge=0.0, le=MOST,
+        typical="0.008 to 0.02 on asphalt", source=f"{CHRONO}; Carvill's handbook")
+    reverse_braking: float = quantity(1.0, "1", "share of the trailer's brake torque that acts backward", "trailer",
+        "outside", ge=0.0, le=1.0,
+        typical="0; at most about 0.16", source=f"a manual of Hobby's; {UN_R13}")
+    V_0: float = quantity(40.0, "m/s", "speed at the start", "both", "outside", ge=-FASTEST, le=FASTEST,
+        typical="10 to 40", source=SECTION_8)
+    compression_start: float = quantity(0.0, "m", "drawbar compression at the start", "trailer", "outside", ge=-WIDEST,
+        le=WIDEST)
+    # fmt: on
 
     def __init__(self, **values: Any) -> None:
         super().__init__(**values)

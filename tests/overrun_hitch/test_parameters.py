@@ -123,6 +123,8 @@ def test_scenarios_are_checked_too() -> None:
 
 
 def test_quantity_declares_what_messages_need() -> None:
-    field = quantity(1.0, "kg", "mass", "car", "exact", ge=1.0)
-    assert field.json_schema_extra == {"unit": "kg", "of": "car", "theory": "exact"}
+    field = quantity(1.0, "kg", "mass", "car", "exact", "1 to 2", "a scale", ge=1.0)
+    assert field.json_schema_extra == {
+        "unit": "kg", "of": "car", "theory": "exact", "typical": "1 to 2", "source": "a scale"
+    }  # fmt: skip
     assert field.description == "mass"

@@ -7,6 +7,7 @@ __all__ = [
     "fit",
     "optimise",
     "paper",
+    "parameters",
     "reference",
     "report",
     "run",

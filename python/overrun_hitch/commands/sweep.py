@@ -16,14 +16,25 @@ from overrun_hitch.commands.cluster import (
     access,
 )
 from overrun_hitch.commands.hints import hint_sweep
-from overrun_hitch.commands.options import FmuOption, TimeLimitOption, chosen_fmu, file_stem
-from overrun_hitch.parameters import HitchError
+from overrun_hitch.commands.options import (
+    FmuOption,
+    ParametersOption,
+    SetOption,
+    TimeLimitOption,
+    assignments,
+    chosen_fmu,
+    file_stem,
+    parameters_of,
+)
+from overrun_hitch.parameters import DATUM, HitchError
 
 RepairOption = Annotated[bool, typer.Option("--repair", help="Run again exactly what is damaged in the store.")]
 
 
 def sweep(
     spec: Annotated[Path, typer.Argument(metavar="SPEC.toml", help="What to run: see docs/sweep.md.")],
+    set_: SetOption = None,
+    parameters: ParametersOption = None,
     scheduler: SchedulerOption = None,
     tls_ca_file: CaFileOption = None,
     tls_cert: CertOption = None,
@@ -40,7 +51,8 @@ def sweep(
 ) -> int:
     """Run every combination that SPEC.toml asks for and write metrics, on request trajectories, as a Zarr store.
 
-    The same command goes on with a sweep that was interrupted.
+    The same command goes on with a sweep that was interrupted. What SPEC.toml varies stays so, whatever --parameters
+    has of it.
     """
     # Imported here, because Dask and xarray would slow down `hitch --help` and wrong options.
     from overrun_hitch.show import terminal, traces
@@ -51,6 +63,11 @@ def sweep(
     from overrun_hitch.sweeps.spec import read_spec
 
     asked = read_spec(spec)
+    same = {name: value for name, value in (parameters_of(parameters) if parameters else {}).items()
+            if name not in asked.varied}  # fmt: skip
+    single = assignments(set_)
+    checked = DATUM.changed(single)
+    asked = asked.changed({**same, **{name: getattr(checked, name) for name in single}})
     if asked.fmus and fmu:
         raise HitchError(f"--fmu and the fmus of {spec} exclude each other")
     fmus = [Path(path) for path in asked.fmus] or [chosen_fmu(fmu)]

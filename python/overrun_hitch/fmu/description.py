@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from overrun_hitch.fmu.translation import REALS
-from overrun_hitch.fmu.unpacking import unpacked
+from overrun_hitch.fmu.unpacking import to_read, unpacked
 from overrun_hitch.foreign.candidates import Candidate
 
 
@@ -35,7 +35,7 @@ class Description:
 
 def described(fmu: Path) -> Description:
     """What the FMU file says of its parameters and inputs. HitchError for a file that is none or of another kind."""
-    with unpacked(fmu) as (description, _):
+    with unpacked(fmu, wanted=to_read) as (description, _):
         tables = {
             causality: {
                 variable.name: Variable(
@@ -55,7 +55,7 @@ def described(fmu: Path) -> Description:
 
 def variables(fmu: Path) -> Iterator[Candidate]:
     """The real inputs, outputs and parameters of an FMU of any kind. HitchError for a file that is none."""
-    with unpacked(fmu, lambda *_: None) as (description, _):
+    with unpacked(fmu, lambda *_: None, to_read) as (description, _):
         for variable in description.modelVariables:
             kind = "output" if variable.causality == "local" else variable.causality
             if variable.type in REALS and kind in ("input", "output", "parameter"):

@@ -24,6 +24,7 @@ LARGEST = 2**30  # bytes, unpacked
 HIGHEST_RATIO = 200  # of unpacked to packed; binaries have 2 to 10, and a deflated bomb 1000
 SMALL = 2**24  # bytes: below, the ratio harms nobody
 PIECE = 2**20  # bytes read at once
+DESCRIPTION = "modelDescription.xml"
 UNWRITABLE = "the working directory's name has letters that this locale cannot write; allowed: UTF-8, as LC_ALL=C.UTF-8"
 
 
@@ -52,18 +53,35 @@ def check_library(fmu: Path, description: Any, names: list[str], use: Use) -> No
         raise HitchError(f"{fmu} has no {library} for {machine}; it has {', '.join(there) or 'no binaries'}")
 
 
+def to_run(name: str) -> bool:
+    """Whether an entry of an archive matters to who runs the FMU here: not sources, not other machines' binaries."""
+    top, _, rest = name.partition("/")
+    here = (fmpy.platform, fmpy.platform_tuple)
+    return top not in ("sources", "documentation") and (top != "binaries" or rest.partition("/")[0] in here)
+
+
+def to_read(name: str) -> bool:
+    """Whether an entry of an archive says what the FMU is."""
+    return name == DESCRIPTION
+
+
 @contextmanager
-def unpacked(fmu: Path, check: Callable[[Path, Any, list[str]], object] = co_simulation_2) -> Iterator[tuple[Any, str]]:
+def unpacked(
+    fmu: Path,
+    check: Callable[[Path, Any, list[str]], object] = co_simulation_2,
+    wanted: Callable[[str], bool] = to_run,
+) -> Iterator[tuple[Any, str]]:
     """The model description of an FMU that this machine can run, and the folder it is unpacked in while needed.
 
-    `check` looks at the file, its description and the names in it first, and raises HitchError.
+    `check` looks at the file, its description and the names in it first, and raises HitchError. Of the entries those
+    that are `wanted` are unpacked.
     """
     if not fmu.is_file():
         raise HitchError(f"{fmu} is not there: an FMU file is needed")
     with tempfile.TemporaryDirectory(prefix="hitch-") as folder:
-        names = _extract(fmu, Path(folder))
-        if "modelDescription.xml" not in names:
-            raise HitchError(f"{fmu} is broken: it has no modelDescription.xml")
+        names = _extract(fmu, Path(folder), wanted)
+        if DESCRIPTION not in names:
+            raise HitchError(f"{fmu} is broken: it has no {DESCRIPTION}")
         try:
             description = fmpy.read_model_description(folder)
         except UnicodeEncodeError:  # lxml's, which puts a file's name after that of the working directory
@@ -74,15 +92,16 @@ def unpacked(fmu: Path, check: Callable[[Path, Any, list[str]], object] = co_sim
         yield description, folder
 
 
-def _extract(fmu: Path, folder: Path) -> list[str]:
-    """Unpack it and return the names in it. HitchError for what is no archive, or not a harmless one."""
+def _extract(fmu: Path, folder: Path, wanted: Callable[[str], bool]) -> list[str]:
+    """Unpack what is wanted and return all names. HitchError for what is no archive, or not a harmless one."""
     try:
         with zipfile.ZipFile(fmu) as archive:
             entries = archive.infolist()
             _check_entries(fmu, entries)
             left = LARGEST
             for entry in entries:
-                left -= _extract_one(archive, entry, folder, left)
+                if wanted(entry.filename):
+                    left -= _extract_one(archive, entry, folder, left)
                 if left < 0:
                     raise _too_large(fmu)
     except zipfile.BadZipFile:

@@ -32,6 +32,7 @@ class Runner:
     def __init__(self, job: Job, fmu: Path) -> None:
         self._job = job
         self._fmu = fmu
+        self._read = read(job)
         self._stack = ExitStack()
         self._unit: HitchUnit | None = None
 
@@ -43,15 +44,16 @@ class Runner:
     def run(self, batch: Batch) -> Done:
         """Run all of them; what the unit refuses is told in `messages`."""
         job = self._job
-        traces = np.full((len(VARIABLES), len(batch), len(job.points)), np.nan)
+        traces = np.full((len(self._read), len(batch), len(job.points)), np.nan)
         messages = [self._run_one(batch, run, traces) for run in range(len(batch))]
         tell(OURS)
         good = np.array([not message for message in messages], dtype=np.bool_)
-        named = dict(zip(VARIABLES, traces, strict=True))
+        named = dict(zip(self._read, traces, strict=True))
         metrics = {name: np.full(len(batch), np.nan) for name in job.metrics}
-        seen = Traces(job.points, {name: named[name][good] for name in NEEDED}, self._eps(batch)[good])
-        for name, values in measured(job.metrics, seen).items() if good.any() else ():
-            metrics[name][good] = values
+        if job.metrics and good.any():
+            seen = Traces(job.points, {name: named[name][good] for name in NEEDED}, self._eps(batch)[good])
+            for name, values in measured(job.metrics, seen).items():
+                metrics[name][good] = values
         return Done(tuple(messages), metrics, {name: named[name] for name in job.trajectories})
 
     def _run_one(self, batch: Batch, run: int, traces: Floats) -> str:
@@ -90,13 +92,18 @@ class Runner:
     def _opened(self) -> HitchUnit:
         if self._unit is None:
             self._unit = self._stack.enter_context(opened_unit(self._fmu))
-            self._sampler: Sampler = self._unit.sampler(list(VARIABLES), self._job.points)
+            self._sampler: Sampler = self._unit.sampler(self._read, self._job.points)
         return self._unit
 
     def _eps(self, batch: Batch) -> Floats:
         if "eps" in self._job.varied:
             return batch.values[:, self._job.varied.index("eps")]
         return np.full(len(batch), self._job.fixed["eps"])
+
+
+def read(job: Job) -> list[str]:
+    """The outputs that are read in each run: what is asked for, and what its metrics are made of."""
+    return [name for name in VARIABLES if name in job.trajectories or (job.metrics and name in NEEDED)]
 
 
 def _before_step(unit: HitchUnit, profile: Profile) -> dict[int, Callable[[], None]]:

@@ -7,6 +7,7 @@ the rows of `runs`, the points of `sample`.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -76,6 +77,15 @@ class SweepSpec(_Part):
             super().__init__(**values)
         except ValidationError as error:
             raise HitchError(_explained(error.errors()[0])) from None
+
+    @property
+    def varied(self) -> set[str]:
+        """The quantities in which runs differ."""
+        return {*self.grid, *self.runs, *(self.sample.ranges if self.sample else ())}
+
+    def changed(self, parameters: Mapping[str, float]) -> SweepSpec:
+        """A copy with these parameters (SI units) that stay the same, instead of or beside its own."""
+        return self.model_copy(update={"parameters": {**self.parameters, **parameters}})
 
 
 def read_spec(file: Path) -> SweepSpec:

@@ -8,11 +8,12 @@ import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
+import fmpy
 import pytest
 
 from overrun_hitch import cli
 from overrun_hitch.fmu import unpacking
-from overrun_hitch.fmu.unpacking import unpacked
+from overrun_hitch.fmu.unpacking import to_read, to_run, unpacked
 from overrun_hitch.parameters import HitchError
 
 Fill = Callable[[zipfile.ZipFile], object]
@@ -91,3 +92,18 @@ def test_a_full_disk_is_not_the_fmus_fault(
     ):
         pass
     assert list(temporary.iterdir()) == []
+
+
+@pytest.mark.parametrize("wanted", [to_run, to_read])
+def test_only_what_is_needed_is_unpacked(wanted: Callable[[str], bool], tmp_path: Path, car_trailer_fmu: Path) -> None:
+    """All else may lie anywhere, beside the library say, and is."""
+    fmu = tmp_path / "unit.fmu"
+    fmu.write_bytes(car_trailer_fmu.read_bytes())
+    left = {"sources/a.c", "documentation/a.html", "binaries/riscv64-linux/a.so"}
+    kept = {"resources/a.bin", "extra/a.csv", "a.txt", f"binaries/{fmpy.platform}/a.so"}
+    with zipfile.ZipFile(fmu, "a") as archive:
+        for name in (*left, *kept):
+            archive.writestr(name, "")
+    with unpacked(fmu, wanted=wanted) as (_, folder):
+        there = {path.relative_to(folder).as_posix() for path in Path(folder).rglob("*") if path.is_file()}
+    assert there == {"modelDescription.xml"} if wanted is to_read else kept < there and not left & there
