@@ -53,10 +53,15 @@ ssp: build/CarTrailer.ssp  ## wire Car and Trailer, with the nine cases' paramet
 build/CarTrailer.ssp: build/fmi2/Car.fmu build/fmi2/Trailer.fmu $(wildcard python/overrun_hitch/coupling/ssp*.py) python/overrun_hitch/parameters.py
 	$(BIN)/python -m overrun_hitch.coupling.ssp build/fmi2/Car.fmu build/fmi2/Trailer.fmu -o $@
 
-web: $(READY) $(WEB)  ## make the live page, with the unit in WebAssembly in it (build/live/index.html; needs Node)
-	$(BUILD).CarTrailer -o build/wasm/CarTrailer.fmu --fmi 3 --platforms wasm
+web: build/live/index.html  ## make the live page, with the unit in WebAssembly in it (build/live/index.html; needs Node)
+
+build/live/index.html: build/wasm/CarTrailer.fmu $(WEB) $(wildcard web/*.* web/src/*) python/overrun_hitch/parameters.py
 	$(BIN)/python web/unit.py build/wasm/CarTrailer.fmu build/wasm
+	$(BIN)/python web/presets.py build/wasm
 	cd web && npx tsc --noEmit && node bundle.mjs ../build/wasm ../build/live/index.html
+
+build/wasm/CarTrailer.fmu: $(SOURCES)
+	$(BUILD).CarTrailer -o $@ --fmi 3 --platforms wasm
 
 $(WEB): web/package-lock.json
 	cd web && npm ci --no-fund --no-audit
