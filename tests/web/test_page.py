@@ -16,6 +16,7 @@ from overrun_hitch.parameters import CASES, FIGURES, Scenario
 from overrun_hitch.results import VARIABLES, read_csv
 from overrun_hitch.scenarios import asked_scenario
 from overrun_hitch.theory.boundary import critical_damping
+from tests.overrun_hitch.commands.test_live import served
 from tests.runs import step_brake
 from tests.web.conftest import WEB, NodeRunner
 
@@ -35,8 +36,9 @@ pytestmark = [
 @pytest.fixture(scope="module")
 def handed_out(run_node: NodeRunner, unit_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """What web/test/page.test.ts has taken from the page."""
-    out = tmp_path_factory.mktemp("page")
-    run_node("page", PAGE=str(unit_folder / "index.html"), BROWSER=str(BROWSER), OUT=str(out))
+    out, page = tmp_path_factory.mktemp("page"), unit_folder / "index.html"
+    with served(page) as address:
+        run_node("page", PAGE=str(page), SERVED=address, BROWSER=str(BROWSER), OUT=str(out))
     return out
 
 

@@ -21,7 +21,9 @@ def test_hitch_live_serves_it(tmp_path: Path) -> None:
     page = b"<!doctype html><title>The page, for which any will do</title>"
     clone = tmp_path / "clone"
     shutil.copytree(ROOT / "fmu_build", clone / "fmu_build", ignore=shutil.ignore_patterns("__pycache__"))
-    shutil.copytree(ROOT / "python", clone / "python", ignore=shutil.ignore_patterns("__pycache__", "fmus", "*.egg-info"))
+    shutil.copytree(
+        ROOT / "python", clone / "python", ignore=shutil.ignore_patterns("__pycache__", "fmus", "*.egg-info")
+    )
     for file in ("pyproject.toml", "README.md", "LICENSE"):
         shutil.copy(ROOT / file, clone)
     place = clone / "python" / "overrun_hitch" / "fmus" / "live" / "index.html"  # where make dist puts it

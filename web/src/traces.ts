@@ -60,7 +60,13 @@ function options(name: string, names: string[], width: number): uPlot.Options {
   return {
     width,
     height: 190,
-    legend: { markers: { width: 3, dash: (_, i) => (series[i - 1]?.dash.length ? "dashed" : "solid") } },
+    legend: {
+      markers: {
+        width: 3,
+        stroke: (_, i) => `var(--${names[i - 1]})`,
+        dash: (_, i) => (series[i - 1]?.dash.length ? "dashed" : "solid"),
+      },
+    },
     cursor: { sync: { key: "time" }, drag: { x: false, y: false } },
     scales: { x: { time: false } },
     series: [{ label: "time (s)", value: (_, value) => (value === null ? "–" : value.toFixed(2)) }, ...series],

@@ -9,7 +9,8 @@ import { chromium, type Browser, type BrowserContextOptions, type Page } from "p
 import { SPANS } from "../src/knobs.js";
 import { PAPER } from "../src/paper.js";
 
-const address = pathToFileURL(process.env["PAGE"]!).href;
+const address = process.env["SERVED"]!; // by `hitch live`
+const file = pathToFileURL(process.env["PAGE"]!).href;
 const out = process.env["OUT"]!;
 const told: string[] = []; // by the console, and asked for outside: nothing is expected
 let browser: Browser;
@@ -28,7 +29,7 @@ async function opened(link = "", options: BrowserContextOptions = {}): Promise<P
   page.on("pageerror", (error) => told.push(String(error)));
   page.on("dialog", (dialog) => told.push(`a dialog: ${dialog.message()}`));
   page.on("request", (request) => {
-    if (!/^(file|blob|data):/.test(request.url())) {
+    if (request.url().split("#")[0] !== address && !/^(file|blob|data):/.test(request.url())) {
       told.push(`asked for ${request.url()}`);
     }
   });
@@ -183,6 +184,14 @@ test("the keyboard alone turns a knob, and walks on the map", async () => {
   await quiet(page);
   assert.match(await page.evaluate(() => location.hash), /^#C=608&x/);
   assert.match((await page.getAttribute("#map", "aria-label"))!, /^Map over C and V_0.*growth of the swing/);
+});
+
+test("the page works from the disk as well", async () => {
+  const page = await opened();
+  await page.goto(`${file}#C=100&eps=0.1`);
+  await mapped(page);
+  assert.equal(await page.inputValue("#preset"), "Figure 9");
+  assert.equal(await page.locator("#map svg g[aria-label=rect] rect").count(), 600);
 });
 
 test("a click on the map takes its values, which are those that it shows", async () => {

@@ -11,6 +11,8 @@ import sys
 import urllib.error
 import urllib.request
 import webbrowser
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -37,28 +39,33 @@ serve(sys.stdin.buffer.read(), lambda address: print(address, flush=True))
 """
 
 
-def test_it_serves_the_page_and_nothing_else_to_this_machine_alone(tmp_path: Path) -> None:
-    (tmp_path / "page.html").write_bytes(PAGE)
+@contextmanager
+def served(page: Path) -> Iterator[str]:
+    """The address of a page that another process serves meanwhile, and then is interrupted."""
     command = [sys.executable, "-c", SERVE]
-    with (tmp_path / "page.html").open("rb") as page, subprocess.Popen(
-        command, stdin=page, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=tmp_path
+    with page.open("rb") as content, subprocess.Popen(
+        command, stdin=content, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=page.parent
     ) as process:  # fmt: skip
         assert process.stdout
-        address = process.stdout.readline().strip()
         try:
-            parts = urlsplit(address)
-            assert (parts.scheme, parts.hostname, parts.path) == ("http", "127.0.0.1", "/")
-            with urllib.request.urlopen(address, timeout=10) as answer:
-                assert answer.read() == PAGE and answer.headers["Content-Type"] == "text/html; charset=utf-8"
-            for other in ("page.html", "..%2f..%2fetc/passwd", "../page.html"):
-                with pytest.raises(urllib.error.HTTPError, match="404"):
-                    urllib.request.urlopen(f"{address}{other}", timeout=10)
+            yield process.stdout.readline().strip()
         finally:
             process.send_signal(signal.SIGINT)
-        assert "KeyboardInterrupt" in process.communicate(timeout=10)[1]
+            assert "KeyboardInterrupt" in process.communicate(timeout=10)[1]
+
+
+def test_it_serves_the_page_and_nothing_else_to_this_machine_alone(page: Path) -> None:
+    with served(page) as address:
+        parts = urlsplit(address)
+        assert (parts.scheme, parts.hostname, parts.path) == ("http", "127.0.0.1", "/")
+        with urllib.request.urlopen(address, timeout=10) as answer:
+            assert answer.read() == PAGE and answer.headers["Content-Type"] == "text/html; charset=utf-8"
+        for other in (page.name, "..%2f..%2fetc/passwd", f"../{page.name}"):
+            with pytest.raises(urllib.error.HTTPError, match="404"):
+                urllib.request.urlopen(f"{address}{other}", timeout=10)
     with pytest.raises(OSError), socket.create_connection(("127.0.0.1", parts.port or 0), timeout=10):
         pass
-    assert [path.name for path in tmp_path.iterdir()] == ["page.html"]
+    assert list(page.parent.iterdir()) == [page]
 
 
 def test_the_command_says_the_address_opens_it_and_ends_well(
