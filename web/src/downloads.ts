@@ -8,7 +8,7 @@ import { DASHES, PANELS, columns } from "./traces.js";
 import type { Description } from "./unit.js";
 
 const INKS: Record<string, string> = { car: "#0b3c6f", drawbar: "#0b3c6f", trailer: "#d55e00", steady: "#777777" };
-const [WIDTH, HEIGHT] = [720, 220];
+const [WIDTH, HEIGHT] = [720, 240];
 
 export interface Shown {
   values: Values;
@@ -63,7 +63,7 @@ function svg({ values, traces, steady }: Shown): string {
     const names = [...Object.keys(panel.of), ...(panel.steady ? ["steady"] : [])];
     const found = columns(panel, traces, steady);
     const picture = Plot.plot({
-      width: WIDTH, height: HEIGHT, marginLeft: 60, marginTop: 34, style: "font: 12px sans-serif; color: #1c2126",
+      width: WIDTH, height: HEIGHT, marginLeft: 60, marginTop: 34, marginBottom: 42, style: "font: 12px sans-serif; color: #1c2126",
       x: { label: "Time (s)" }, y: { label: panel.name, grid: true },
       marks: [
         ...found.map((column, i) => Plot.lineY(column, {

@@ -3,6 +3,7 @@ import { PAPER, type Values } from "./paper.js";
 import type { Unit } from "./unit.js";
 
 export const STEP = 0.01; // s, between two samples; the unit chooses its own steps
+const PATIENCE = 2000; // ms: the page stands still meanwhile
 const STANDSTILL = 0.1; // m/s: the paper's slip, a difference over the speed, means nothing at rest
 
 /** The outputs that are seen, each a Float64Array over `time`, in SI units. */
@@ -30,7 +31,7 @@ export function brake(unit: Unit, values: Values, duration = PAPER.duration): Tr
   if (!(values["V_0"]! >= STANDSTILL)) {
     throw new RangeError(`V_0 = ${values["V_0"]} m/s is not allowed: a step brake starts at ${STANDSTILL} m/s at least`);
   }
-  const found = { time, ...unit.sample(time, [...OUTPUTS]) } as Traces;
+  const found = { time, ...unit.sample(time, [...OUTPUTS], PATIENCE) } as Traces;
   const rest = time.findIndex((_, i) => becomesSlower(found, i));
   return rest < 0 ? found : (mapped(found, (column) => column.subarray(0, rest + 1)) as Traces);
 }

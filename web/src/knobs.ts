@@ -51,7 +51,7 @@ function makeKnob(name: string, span: Span, unit: Description, turned: (name: st
   const meaning = PAPER.meanings[name]!;
   const slider = element("input", { type: "range", min: span.from, max: span.to, step: span.step });
   const field = element("input", { type: "text", inputMode: "decimal", autocomplete: "off", spellcheck: false });
-  const told = element("p", { id: `told-${name}`, className: "told" });
+  const told = element("p", { id: `told-${name}`, className: "told", ariaLive: "polite" });
   field.id = `knob-${name}`;
   const label = element("label", { htmlFor: field.id }, meaning, element("i", {}, name));
   slider.setAttribute("aria-label", `${meaning}, ${name}, slider`);

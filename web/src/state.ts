@@ -19,7 +19,7 @@ export interface State {
  */
 export function typed(name: string, text: string, { unit, min, max, causality }: Variable): number {
   const bare = text.trim();
-  const number = unit && bare.endsWith(unit) ? bare.slice(0, -unit.length).trim() : bare;
+  const number = unit && unit !== "1" && bare.endsWith(unit) ? bare.slice(0, -unit.length).trim() : bare;
   const low = causality === "input" ? (min ?? -Infinity) : -Infinity;
   if (number === "" || !Number.isFinite(Number(number)) || Number(number) < low) {
     const ends = [min, max].map((end) => `${end ?? "any"} ${unit}`).join(" to ");

@@ -5,6 +5,8 @@ import { criticalDamping, type LinearParameters } from "./linear.js";
 import type { Values } from "./paper.js";
 import { Unit, type Description } from "./unit.js";
 
+const LISTENS = 30; // ms, at least so often
+
 function run(unit: Unit, values: Values): Cell {
   try {
     return cell(brake(unit, values), values["eps"]!);
@@ -23,16 +25,23 @@ function critical(values: Values): number | null {
 
 let unit: Unit;
 let latest = 0;
+let heard = 0;
 
 async function answer({ number, values, x, y }: Request): Promise<void> {
   for (const [row, up] of y.values.entries()) {
     const here = { ...values, [y.name]: up };
-    const cells = x.values.map((across) => run(unit, { ...here, [x.name]: across }));
-    self.postMessage({ number, row, cells, critical: x.name === "C" ? critical(here) : null } satisfies Row);
-    await new Promise((resume) => setTimeout(resume)); // so that a newer request is heard
-    if (number !== latest) {
-      return;
+    const cells: Cell[] = [];
+    for (const across of x.values) {
+      cells.push(run(unit, { ...here, [x.name]: across }));
+      if (performance.now() - heard > LISTENS) {
+        await new Promise((resume) => setTimeout(resume)); // so that a newer request is heard
+        heard = performance.now();
+      }
+      if (number !== latest) {
+        return;
+      }
     }
+    self.postMessage({ number, row, cells, critical: x.name === "C" ? critical(here) : null } satisfies Row);
   }
 }
 

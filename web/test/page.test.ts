@@ -138,7 +138,7 @@ test("links lead to the state that they tell, whatever else is in them", async (
   const page = await opened();
   for (const [link, expected] of [
     ["C=20&k_t=5480&M_t=750.5&x=eps&y=M_t&show=jerk", "#M_t=750.5&k_t=5480&C=20&x=eps&y=M_t&show=jerk"],
-    ["C_kt=160000&sigma=0.25&brake_torque=800", "#C_kt=160000&sigma=0.25&brake_torque=800&x=C&y=V_0&show=growth"],
+    ["C_kt=160000&mu=0.81&sigma=0.25&brake_torque=800", "#C_kt=160000&mu=0.81&sigma=0.25&brake_torque=800&x=C&y=V_0&show=growth"],
     [`C=${hostile}&eps=0.05&${hostile}=1&x=${hostile}&y=C&show=${hostile}`, "#eps=0.05&x=C&y=V_0&show=growth"],
     ["C=-5&V_0=nan&mu=nought&constructor=1&__proto__=2&x=__proto__", "#x=C&y=V_0&show=growth"],
     ["", "#x=C&y=V_0&show=growth"],
