@@ -12,6 +12,8 @@ DIST := $(foreach unit,$(UNITS),$(READY_MADE)/fmi2/$(unit).fmu $(READY_MADE)/fmi
 BUILD := $(BIN)/python -m fmu_build modelica/OverrunHitch OverrunHitch.Systems
 SOURCES := $(READY) $(shell find modelica fmu_build -name '*.mo' -o -name '*.order' -o -name '*.py' -o -name '*.[ch]')
 WEB := web/node_modules/.package-lock.json
+NPM := $(shell command -v npm)
+LIVE := $(if $(NPM),$(READY_MADE)/live/index.html)
 C_FILES := $(shell find fmu_build/runtime -name "*.[ch]") tests/platforms/*.[ch] benchmarks/*.c
 
 help:  ## list the targets
@@ -24,13 +26,14 @@ report: $(READY)  ## recompute all figures and claims of the paper into one page
 	$(BIN)/hitch report
 
 docs: $(DOCS_READY)  ## make the documentation site, its examples run (build/site/index.html)
+	$(if $(NPM),-$(MAKE) --no-print-directory web,@echo "without the live page: it needs npm, which is not installed")
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict --quiet
 
 test: $(READY)  ## run the tests, on all cores: every kind of check, long grids sampled
 	$(BIN)/python -m pytest -n auto --dist worksteal -m "not full and not platforms"
 
 test-all: test  ## run the rest of the tests as well, those of the live page where npm is and gets its packages
-	$(if $(shell command -v npm),-$(MAKE) --no-print-directory $(WEB))
+	$(if $(NPM),-$(MAKE) --no-print-directory $(WEB))
 	$(BIN)/python -m pytest -n auto --dist worksteal -m full
 
 test-platforms: $(READY)  ## build for all systems and run what can be run here (minutes, the first time)
@@ -53,16 +56,22 @@ ssp: build/CarTrailer.ssp  ## wire Car and Trailer, with the nine cases' paramet
 build/CarTrailer.ssp: build/fmi2/Car.fmu build/fmi2/Trailer.fmu $(wildcard python/overrun_hitch/coupling/ssp*.py) python/overrun_hitch/parameters.py
 	$(BIN)/python -m overrun_hitch.coupling.ssp build/fmi2/Car.fmu build/fmi2/Trailer.fmu -o $@
 
-web: $(READY) $(WEB)  ## make the live page, with the unit in WebAssembly in it (build/live/index.html; needs Node)
-	$(BUILD).CarTrailer -o build/wasm/CarTrailer.fmu --fmi 3 --platforms wasm
+web: build/live/index.html  ## make the live page, with the unit in WebAssembly in it (build/live/index.html; needs Node)
+
+build/live/index.html: build/wasm/CarTrailer.fmu $(WEB) $(wildcard web/*.* web/src/*) python/overrun_hitch/parameters.py
 	$(BIN)/python web/unit.py build/wasm/CarTrailer.fmu build/wasm
+	$(BIN)/python web/presets.py build/wasm
 	cd web && npx tsc --noEmit && node bundle.mjs ../build/wasm ../build/live/index.html
+
+build/wasm/CarTrailer.fmu: $(SOURCES)
+	$(BUILD).CarTrailer -o $@ --fmi 3 --platforms wasm
 
 $(WEB): web/package-lock.json
 	cd web && npm ci --no-fund --no-audit
 	touch $@
 
-dist: $(READY) $(DIST)  ## make the wheel, with the FMUs for all systems in it (dist; minutes, the first time)
+dist: $(READY) $(DIST) $(LIVE)  ## make the wheel, with the FMUs for all systems and the live page in it (dist; minutes, the first time)
+	$(if $(LIVE),,@echo "without the live page: it needs npm, which is not installed")
 	$(BIN)/hatchling build -t wheel
 
 $(READY_MADE)/fmi2/%.fmu: $(SOURCES)
@@ -70,6 +79,10 @@ $(READY_MADE)/fmi2/%.fmu: $(SOURCES)
 
 $(READY_MADE)/fmi3/%.fmu: $(SOURCES)
 	$(BUILD).$* -o $@ --fmi 3 --platforms all
+
+$(READY_MADE)/live/index.html: build/live/index.html
+	mkdir -p $(@D)
+	cp $< $@
 
 bench: $(READY) build/fmi2/CarTrailer.fmu build/fmi2/Trailer.fmu  ## measure a run of figure 8 against its arithmetic and other ways (benchmarks/results.md; three minutes)
 	$(BIN)/python -m benchmarks build/fmi2/CarTrailer.fmu build/fmi2/Trailer.fmu

@@ -1,7 +1,7 @@
 """What mkdocs does not find in docs/: pages that lie elsewhere or are made, and the examples, which are run.
 
 The commands' page is their own help. Where a page's examples (`>>>`) save pictures, they run in a folder of their own
-when the site is built, and the page shows these.
+when the site is built, and the page shows these. The live page is what `make web` has left.
 """
 
 from __future__ import annotations
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 ROOT = Path(__file__).parents[1]
 LINK = re.compile(r"(?<=\]\()([^)#:\s]+)(?=[)#])")
 FROM_ELSEWHERE = ("CHANGELOG.md", "CONTRIBUTING.md", "benchmarks/results.md")  # pages; what is linked comes along
+LIVE_PAGE = "live/index.html"  # by `make web`, in build/
+NO_LIVE_PAGE = "<!doctype html><title>No live page</title><p>It was not built: <code>make web</code> needs Node."
 COMMANDS = {"hitch": "overrun_hitch.cli", "python -m fmu_build": "fmu_build.cli"}
 
 
@@ -64,7 +66,11 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Add what lies elsewhere, what is linked from pages and lies elsewhere, what is made."""
     from mkdocs.structure.files import File
 
-    made: dict[str, str | bytes] = {"commands.md": commands()}
+    live = ROOT / "build" / LIVE_PAGE
+    made: dict[str, str | bytes] = {
+        "commands.md": commands(),
+        LIVE_PAGE: live.read_bytes() if live.is_file() else NO_LIVE_PAGE,
+    }
     for page in sorted((ROOT / "docs").glob("*.md")):
         if ".savefig(" in page.read_text(encoding="utf-8"):
             made |= pictures(page)

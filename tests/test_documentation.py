@@ -23,7 +23,7 @@ from tests.sampling import sampled
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 IN_BRIEF = [ROOT / "docs" / "model.md", ROOT / "docs" / "sweep.md", ROOT / "README.md"]  # the others are `full`
 COMMANDS = {"hitch": ["-m", "overrun_hitch"], "make": ["-m", "overrun_hitch"], "python": []}  # make run: hitch run
-MADE = ("commands.md", "first-run.svg", "four-dampers.svg")  # when the site is built
+MADE = ("commands.md", "live/index.html", "first-run.svg", "four-dampers.svg")  # when the site is built
 CONSOLE = re.compile(r"^```console\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 TOML = re.compile(r"^```toml\n# (\S+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 

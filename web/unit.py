@@ -1,4 +1,7 @@
-"""What the page needs of an FMI 3 FMU: ``python web/unit.py NAME.fmu FOLDER`` writes NAME.wasm and NAME.json there."""
+"""What the page needs of an FMI 3 FMU: ``python web/unit.py NAME.fmu FOLDER``.
+
+It writes NAME.wasm, NAME.json and the licences of what is in the former.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +14,8 @@ from typing import Any
 import fmpy
 
 from fmu_build.fmu.compile import WASM
+
+LICENCES = "documentation/licenses/"
 
 
 def describe(fmu: Path) -> dict[str, Any]:
@@ -37,10 +42,13 @@ def _number(text: str | None) -> float | None:
 
 
 def write(fmu: Path, folder: Path) -> None:
-    """Write both files. KeyError where the FMU has no library in WebAssembly."""
+    """Write these files. KeyError where the FMU has no library in WebAssembly."""
     with zipfile.ZipFile(fmu) as archive:
         module = archive.read(f"binaries/{WASM.fmi3_folder}/{fmu.stem}.wasm")
-    folder.mkdir(parents=True, exist_ok=True)
+        licences = {Path(name).name: archive.read(name) for name in archive.namelist() if name.startswith(LICENCES)}
+    (folder / "licenses").mkdir(parents=True, exist_ok=True)
+    for name, text in licences.items():
+        (folder / "licenses" / name).write_bytes(text)
     (folder / f"{fmu.stem}.wasm").write_bytes(module)
     (folder / f"{fmu.stem}.json").write_text(json.dumps(describe(fmu)), encoding="utf-8")
 

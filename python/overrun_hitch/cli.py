@@ -20,6 +20,7 @@ from overrun_hitch.commands.cases import cases
 from overrun_hitch.commands.couple import couple
 from overrun_hitch.commands.crosscheck import crosscheck
 from overrun_hitch.commands.fit import fit
+from overrun_hitch.commands.live import live
 from overrun_hitch.commands.optimise import optimise
 from overrun_hitch.commands.paper import paper
 from overrun_hitch.commands.parameters import parameters
@@ -108,5 +109,6 @@ app.command()(optimise)
 app.command()(fit)
 app.command()(paper)
 app.command()(report)
+app.command()(live)
 app.command()(cases)
 app.command()(parameters)

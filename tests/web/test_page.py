@@ -1,78 +1,100 @@
-"""The live page in a browser without a window: its numbers are those of the command line, and it asks for nothing."""
+"""The live page in a real browser: what it shows and hands out is what the command line says, whatever is typed."""
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
-import subprocess
-import sys
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
-from fmu_build.fmu.compile import zig_compiler
-from fmu_build.pipeline import build
-from overrun_hitch.parameters import FIGURES
-from overrun_hitch.theory.linear import shunting_mode
+from overrun_hitch.commands.options import parameters_of
+from overrun_hitch.parameters import CASES, FIGURES, Scenario
+from overrun_hitch.results import VARIABLES, read_csv
+from overrun_hitch.scenarios import asked_scenario
+from overrun_hitch.theory.boundary import critical_damping
+from tests.overrun_hitch.commands.test_live import served
 from tests.runs import step_brake
-from tests.web.conftest import WEB
+from tests.web.conftest import WEB, NodeRunner
 
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+TOLERANCE = 1e-9  # relative to the largest value of a trace
+SCENARIOS = {
+    **{f"Figure {name}": scenario for name, scenario in FIGURES.items()},
+    **{f"Case {name}": asked_scenario(None, name, {}) for name in CASES},
+}
 pytestmark = [
+    pytest.mark.full,
     pytest.mark.platforms,
     pytest.mark.skipif(BROWSER is None, reason="no browser is installed (Debian: chromium)"),
-    pytest.mark.skipif(shutil.which("node") is None, reason="Node (node) is not installed"),
-    pytest.mark.skipif(not (WEB / "node_modules").exists(), reason="the packages of web/ are not installed (make web)"),
-    pytest.mark.skipif(zig_compiler() is None, reason="the package ziglang is not installed"),
 ]
 
 
 @pytest.fixture(scope="module")
-def page(modelica_library: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("page")
-    fmu = folder / "CarTrailer.fmu"
-    build(modelica_library, "OverrunHitch.Systems.CarTrailer", fmu, 3, ("wasm",), references=False)
-    subprocess.run([sys.executable, WEB / "unit.py", fmu, folder], check=True)
-    subprocess.run(["node", WEB / "bundle.mjs", folder, folder / "index.html"], check=True)
-    return folder / "index.html"
+def handed_out(run_node: NodeRunner, unit_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """What web/test/page.test.ts has taken from the page."""
+    out, page = tmp_path_factory.mktemp("page"), unit_folder / "index.html"
+    with served(page) as address:
+        run_node("page", PAGE=str(page), SERVED=address, BROWSER=str(BROWSER), OUT=str(out))
+    return out
 
 
-def shown(page: Path, link: str) -> dict[str, str]:
-    """The text of what has an id in the page behind a link, once it has drawn. Nothing may go wrong on its console."""
-    command = [str(BROWSER), "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", "--dump-dom"]
-    command += [f"--user-data-dir={page.parent / 'profile'}", f"{page.as_uri()}#{link}"]
-    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
-    assert "CONSOLE" not in done.stderr, done.stderr
-    return dict(re.findall(r'id="(\w+)"[^>]*>([^<]*)<', done.stdout)) | {
-        "hidden": " ".join(re.findall(r'id="(\w+)" hidden', done.stdout))
-    }
+@pytest.mark.parametrize("name", SCENARIOS)
+def test_the_run_is_that_of_the_native_unit(name: str, handed_out: Path, car_trailer_fmu: Path) -> None:
+    found, expected = read_csv(handed_out / f"{name}.csv"), step_brake(SCENARIOS[name], fmu=car_trailer_fmu)
+    assert np.array_equal(found["time"], np.round(expected["time"], 9))
+    distances = [float(abs(found[n] - expected[n]).max() / abs(expected[n]).max()) for n in VARIABLES]
+    print(f"{name}: {max(distances):.2g} of the largest value")
+    assert max(distances) <= TOLERANCE
 
 
-@pytest.mark.parametrize("figure", ["6a", "8"])
-def test_the_numbers_are_those_of_theory_and_run(figure: str, page: Path, car_trailer_fmu: Path) -> None:
-    scenario = FIGURES[figure]
-    found = shown(page, f"C={scenario.parameters.C}")
-    compression = 1e3 * step_brake(scenario, fmu=car_trailer_fmu)["compression"].values
-    mode = shunting_mode(scenario.parameters, scenario.parameters.V_0)
-    assert (found["largest"], found["last"]) == (f"{compression.max():.3f}", f"{compression[-1]:.3f}")
-    assert found["growth"] == f"{float(mode.growth_rate):.3f}"
-    assert found["frequency"] == f"{float(mode.frequency):.3f}"
-    assert found["damping"] == f"{float(mode.damping_ratio):.4f}"
-    assert found["verdict"].endswith("grows." if mode.growth_rate > 0.0 else "dies out.")
-    assert (found["alert"], found["hidden"]) == ("", "clearance")
+@pytest.mark.parametrize("name", SCENARIOS)
+def test_what_repeats_the_run_says_the_same(name: str, handed_out: Path) -> None:
+    scenario = SCENARIOS[name]
+    shown = json.loads((handed_out / "shown.json").read_text(encoding="utf-8"))[name]
+    assert FIGURES["8"].parameters.changed(parameters_of(handed_out / f"{name}.toml")) == scenario.parameters
+    assert asked(shown["python"]).parameters == scenario.parameters
+    values = dict(pair.split("=") for pair in shown["link"][1:].split("&")[:-3])
+    assert FIGURES["8"].parameters.changed(values) == scenario.parameters
+    rows = {row[0].split(" ")[0]: row[1:] for row in shown["rows"]}
+    critical = critical_damping(scenario.parameters, scenario.parameters.V_0)
+    assert float(rows["C_crit"][0]) == pytest.approx(critical, rel=1e-3)
 
 
-def test_theory_is_silent_where_there_is_clearance(page: Path, car_trailer_fmu: Path) -> None:
-    found = shown(page, "eps=0.1")  # figure 10
-    compression = 1e3 * step_brake(FIGURES["10"], fmu=car_trailer_fmu)["compression"].values
-    assert (found["largest"], found["hidden"]) == (f"{compression.max():.3f}", "theory")
+def asked(line: str) -> Scenario:
+    """What the line asks `hitch.run` for."""
+    calls: list[Scenario] = []
+
+    class Hitch:
+        @staticmethod
+        def run(figure: str, **changes: Any) -> None:
+            calls.append(asked_scenario(figure, None, changes))
+
+    exec(line.removeprefix("import overrun_hitch as hitch; "), {"hitch": Hitch})
+    return calls[0]
 
 
-def test_the_unit_refuses_what_is_out_of_range(page: Path) -> None:
-    assert shown(page, "C=-5")["alert"].startswith("C = -5 N.s/m is not allowed: its range is 0 N.s/m")
-    assert "NaN" in shown(page, "C=much")["alert"].replace("nan", "NaN")
+def test_the_picture_is_svg_by_itself(handed_out: Path) -> None:
+    text = (handed_out / "run.svg").read_text(encoding="utf-8")
+    assert text.startswith("<svg ") and "Acceleration" in text and "var(" not in text
+    assert not re.search(r"(?:href|src)=", text)
 
 
-def test_it_is_one_file_that_may_fetch_nothing(page: Path) -> None:
-    text = page.read_text(encoding="utf-8")
-    assert "default-src 'none'" in text and not re.search(r"<(?:link|img|iframe)\b|<script[^>]*src=|@import", text)
+def test_the_page_is_one_file_that_may_fetch_nothing(unit_folder: Path) -> None:
+    text = (unit_folder / "index.html").read_text(encoding="utf-8")
+    assert "default-src 'none'" in text
+    assert not re.search(r"<(?:iframe|img)\b|<script[^>]*src=|<link[^>]*href=\"(?!data:,)|@import", text)
+    for package in ("uplot", "ml-matrix", "@observablehq/plot", "d3-scale"):
+        assert re.search(rf"^{re.escape(package)} \d", text, re.MULTILINE), package  # and its licence after it
+
+
+def test_the_page_is_small() -> None:
+    lines = [
+        line.strip() for file in (WEB / "src").glob("*.ts") for line in file.read_text(encoding="utf-8").split("\n")
+    ]
+    code = [line for line in lines if line and not line.startswith(("//", "/*", "*"))]
+    print(f"{len(code)} lines of TypeScript")
+    assert 1000 < len(code) < 1500

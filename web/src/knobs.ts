@@ -1,67 +1,112 @@
 /** The knobs of the page: a slider and a field each, for one parameter or input of the unit. */
+import { element } from "./element.js";
+import { PAPER, type Values } from "./paper.js";
+import { typed } from "./state.js";
 import type { Description } from "./unit.js";
 
-interface Span {
-  name: string;
-  meaning: string;
+export interface Span {
   from: number;
   to: number;
   step: number;
 }
 
-/** What the sliders reach, in the unit's units; a field takes all that the unit takes. */
-const SPANS: Span[] = [
-  { name: "C", meaning: "damper", from: 0, to: 5000, step: 10 },
-  { name: "k", meaning: "spring", from: 1000, to: 20000, step: 10 },
-  { name: "eps", meaning: "clearance", from: 0, to: 0.2, step: 0.001 },
-  { name: "tau_b", meaning: "lag of the trailer's brake", from: 0, to: 1, step: 0.01 },
-  { name: "brake_torque", meaning: "brake torque of the car", from: 0, to: 2000, step: 10 },
-];
+/** What the sliders and the map reach, in the unit's units; a field takes all that the unit takes. */
+export const SPANS: Record<string, Span> = {
+  C: { from: 0, to: 3000, step: 5 },
+  V_0: { from: 5, to: 60, step: 0.5 },
+  k: { from: 500, to: 20000, step: 10 },
+  k_t: { from: 0, to: 600000, step: 10 },
+  r: { from: 0, to: 60000, step: 1 },
+  eps: { from: 0, to: 0.2, step: 0.001 },
+  tau_b: { from: 0, to: 0.5, step: 0.005 },
+  F_f: { from: 0, to: 1000, step: 5 },
+  M_t: { from: 100, to: 2000, step: 5 },
+  brake_torque: { from: 0, to: 4000, step: 10 },
+};
 
-export type Values = Record<string, number>;
+export interface Knobs {
+  /** Shows values; but for `anew`, a field with a wrong text keeps it until its knob has another value. */
+  show(values: Values, anew: boolean): void;
+  /** Marks the field of what a message names first, "C = -5 ...", or none; whether there is such a field. */
+  complain(name: string, text: string, message: string): boolean;
+}
 
-/**
- * Makes the knobs in `parent`, at `values` where they are named there, else where the unit starts, and returns all
- * their values. `changed` is called with these after each change; a field without a number is NaN, which the unit
- * refuses.
- */
-export function makeKnobs(
-  parent: HTMLElement,
-  unit: Description,
-  values: Values,
-  changed: (values: Values) => void,
-): Values {
-  const now: Values = {};
-  for (const span of SPANS) {
-    const { start, unit: symbol, description } = unit.variables[span.name]!;
-    now[span.name] = values[span.name] ?? start ?? 0;
-    const [slider, field] = [input("range", span), input("number", span)];
-    field.step = "any";
-    field.removeAttribute("min");
-    field.removeAttribute("max");
-    slider.value = field.value = String(now[span.name]);
-    for (const [one, other] of [[slider, field], [field, slider]] as const) {
-      one.addEventListener("input", () => {
-        other.value = one.value;
-        now[span.name] = one.valueAsNumber;
-        changed(now);
-      });
-    }
-    slider.setAttribute("aria-label", `${span.meaning}, ${symbol}, slider`);
-    const label = element("label", element("span", span.meaning), element("i", span.name));
-    label.title = description ?? "";
-    label.setAttribute("for", (field.id = `knob-${span.name}`));
-    parent.append(element("div", label, slider, field, element("span", symbol ?? "")));
+/** Makes the knobs in `parent`; `turned` is told each new number and answers what is wrong with it, or "". */
+export function makeKnobs(parent: HTMLElement, unit: Description, turned: (name: string, value: number) => string): Knobs {
+  const knobs = new Map<string, ReturnType<typeof makeKnob>>();
+  for (const [name, span] of Object.entries(SPANS)) {
+    const knob = makeKnob(name, span, unit, turned);
+    knobs.set(name, knob);
+    parent.append(knob.row);
   }
-  return now;
+  return {
+    show: (values, anew) => knobs.forEach((knob, name) => knob.show(values[name]!, anew)),
+    complain: (name, text, message) => knobs.get(name)?.complain(text, message) ?? false,
+  };
 }
 
-function input(type: string, { from, to, step }: Span): HTMLInputElement {
-  return Object.assign(document.createElement("input"), { type, min: from, max: to, step });
+function makeKnob(name: string, span: Span, unit: Description, turned: (name: string, value: number) => string) {
+  const variable = unit.variables[name]!;
+  const { unit: symbol } = variable;
+  const meaning = PAPER.meanings[name]!;
+  const slider = element("input", { type: "range", min: span.from, max: span.to, step: span.step });
+  const field = element("input", { type: "text", inputMode: "decimal", autocomplete: "off", spellcheck: false });
+  const told = element("p", { id: `told-${name}`, className: "told", ariaLive: "polite" });
+  field.id = `knob-${name}`;
+  const label = element("label", { htmlFor: field.id }, meaning, element("i", {}, name));
+  slider.setAttribute("aria-label", `${meaning}, ${name}, slider`);
+  field.setAttribute("aria-describedby", `${told.id} unit-${name}`);
+  let last = NaN;
+  const tell = (message: string): void => {
+    told.textContent = message;
+    field.setAttribute("aria-invalid", String(message !== ""));
+  };
+  slider.addEventListener("input", () => {
+    field.value = slider.value;
+    tell(turned(name, slider.valueAsNumber));
+  });
+  field.addEventListener("input", () => {
+    try {
+      tell(turned(name, typed(name, field.value, variable)));
+    } catch (error) {
+      tell((error as Error).message);
+    }
+  });
+  const unitText = element("span", { id: `unit-${name}` }, symbol ?? "");
+  return {
+    row: element("div", { className: "knob" }, label, slider, field, unitText, told),
+    show(value: number, anew: boolean) {
+      slider.value = String(value);
+      slider.setAttribute("aria-valuetext", `${value} ${symbol}`);
+      if (anew || (document.activeElement !== field && (value !== last || told.textContent === ""))) {
+        field.value = String(value);
+        tell("");
+      }
+      last = value;
+    },
+    complain(text: string, message: string) {
+      field.value = text;
+      tell(message);
+      return true;
+    },
+  };
 }
 
-function element(tag: "div" | "span" | "i" | "label", ...inside: (Node | string)[]): HTMLElement {
-  const made = document.createElement(tag);
-  made.append(...inside);
-  return made;
+/** The presets: figures and cases of the paper, and what is none of these. */
+export function makePresets(select: HTMLSelectElement, chosen: (values: Values) => void): (values: Values) => void {
+  const presets = Object.entries({ "Figures of the paper": PAPER.figures, "Its cases, with C = 500 N.s/m": PAPER.cases });
+  const all = presets.flatMap(([heading, table]) => {
+    const word = table === PAPER.figures ? "Figure" : "Case";
+    const options = Object.keys(table).map((name) => element("option", { value: `${word} ${name}` }, `${word} ${name}`));
+    select.append(element("optgroup", { label: heading }, ...options));
+    return Object.entries(table).map(([name, values]) => [`${word} ${name}`, { ...PAPER.datum, ...values }] as const);
+  });
+  select.prepend(element("option", { value: "" }, "Own values"));
+  select.addEventListener("change", () => chosen({ ...(all.find(([name]) => name === select.value)?.[1] ?? PAPER.datum) }));
+  return (values) => {
+    const same = all.filter(([, preset]) => Object.keys(preset).every((name) => preset[name] === values[name]));
+    if (!same.some(([name]) => name === select.value)) {
+      select.value = same[0]?.[0] ?? "";
+    }
+  };
 }

@@ -16,6 +16,7 @@ export interface LinearParameters {
   rebound: number;
   r: number;
   tau_b: number;
+  sigma: number;
 }
 
 /** Of e^(re + i im)t, both in 1/s. */
@@ -25,27 +26,56 @@ export interface Eigenvalue {
 }
 
 /**
- * The dynamic matrix (5 x 5, in rows) for (x_t - x_c, v_c, v_t, omega_c, omega_t) at the speed V in m/s; with tau_b > 0
- * the trailer's brake torque is a sixth state. RangeError where V is not greater than 0.
+ * The dynamic matrix (5 x 5, in rows) for (x_t - x_c, v_c, v_t, omega_c, omega_t) at the speed V in m/s; with sigma > 0
+ * the slips of car and trailer are two more states, with tau_b > 0 the trailer's brake torque is the last one.
+ * RangeError where V is not greater than 0.
  */
 export function compressionMatrix(p: LinearParameters, V: number): number[][] {
   if (!(V > 0)) {
     throw new RangeError(`V_0 = ${V} m/s is not allowed: linear theory needs a speed greater than 0 m/s`);
   }
   const C = 0.5 * p.C * (1 + p.rebound);
-  const g_c = p.C_kc / V;
-  const g_t = p.C_kt / V;
-  const car = [p.k / p.M_c, -(C + g_c) / p.M_c, C / p.M_c, (g_c * p.R_c) / p.M_c, 0];
-  const trailer = [-p.k / p.M_t, C / p.M_t, -(C + g_t) / p.M_t, 0, (g_t * p.R_t) / p.M_t];
-  const carWheel = [0, (g_c * p.R_c) / p.I_c, 0, (-g_c * p.R_c ** 2) / p.I_c, 0];
-  const trailerWheel = [-p.r / p.I_t, 0, (g_t * p.R_t) / p.I_t, 0, (-g_t * p.R_t ** 2) / p.I_t];
-  const rows = [[0, -1, 1, 0, 0], car, trailer, carWheel, trailerWheel];
+  const drawbar = [
+    [0, -1, 1, 0, 0],
+    [p.k / p.M_c, -C / p.M_c, C / p.M_c, 0, 0],
+    [-p.k / p.M_t, C / p.M_t, -C / p.M_t, 0, 0],
+    [0, 0, 0, 0, 0],
+    [p.tau_b > 0 ? 0 : -p.r / p.I_t, 0, 0, 0, 0],
+  ];
+  const rows = p.sigma > 0 ? withLaggingTyres(drawbar, p, V) : withTyres(drawbar, p, V);
   if (!(p.tau_b > 0)) {
     return rows;
   }
-  trailerWheel[0] = 0; // what was there is the torque's, which follows: tau_b T' = r (x_t - x_c) - T
-  const torque = [p.r / p.tau_b, 0, 0, 0, 0, -1 / p.tau_b];
-  return [...rows.map((row) => [...row, row === trailerWheel ? -1 / p.I_t : 0]), torque];
+  const torque = [p.r / p.tau_b, ...rows.slice(1).map(() => 0), -1 / p.tau_b]; // tau_b T' = r (x_t - x_c) - T
+  return [...rows.map((row, i) => [...row, i === 4 ? -1 / p.I_t : 0]), torque];
+}
+
+/** Slip speeds of car and trailer over (x_t - x_c, v_c, v_t, omega_c, omega_t); what a tyre's force makes of these. */
+function tyres(p: LinearParameters): { slipSpeeds: number[][]; answers: number[][] } {
+  return {
+    slipSpeeds: [[0, 1, 0, -p.R_c, 0], [0, 0, 1, 0, -p.R_t]],
+    answers: [[0, -1 / p.M_c, 0, p.R_c / p.I_c, 0], [0, 0, -1 / p.M_t, 0, p.R_t / p.I_t]],
+  };
+}
+
+/** Tyre force C_k slip, slip = slip speed / V. */
+function withTyres(drawbar: number[][], p: LinearParameters, V: number): number[][] {
+  const { slipSpeeds, answers } = tyres(p);
+  const forces = [p.C_kc / V, p.C_kt / V];
+  const added = (i: number, j: number): number =>
+    forces.reduce((sum, force, tyre) => sum + answers[tyre]![i]! * force * slipSpeeds[tyre]![j]!, 0);
+  return drawbar.map((row, i) => row.map((value, j) => value + added(i, j)));
+}
+
+/** sigma slip' = slip speed - V slip. */
+function withLaggingTyres(drawbar: number[][], p: LinearParameters, V: number): number[][] {
+  const { slipSpeeds, answers } = tyres(p);
+  const rows = drawbar.map((row, i) => [...row, answers[0]![i]! * p.C_kc, answers[1]![i]! * p.C_kt]);
+  const slips = slipSpeeds.map((row, tyre) => [
+    ...row.map((value) => value / p.sigma),
+    ...[0, 1].map((other) => (other === tyre ? -V / p.sigma : 0)),
+  ]);
+  return [...rows, ...slips];
 }
 
 /** The eigenvalues of a real matrix, in no order. */
@@ -58,16 +88,51 @@ export function eigenvalues(matrix: number[][]): Eigenvalue[] {
  * the compression participates most (theory/linear.py: shunting_mode). RangeError as above, and where k = r = 0.
  */
 export function shuntingMode(p: LinearParameters, V: number): Eigenvalue {
+  return modesOf(p, V).shunting;
+}
+
+/** The slowest decay rate (1/s) of what is left beside rigid body and shunting (theory/linear.py). */
+export function wheelDecayRate(p: LinearParameters, V: number): number {
+  const { modes, shunting } = modesOf(p, V);
+  const distance = ({ re, im }: Eigenvalue): number => Math.hypot(re - shunting.re, Math.abs(im) - shunting.im);
+  const others = modes.sort((one, other) => distance(one) - distance(other)).slice(2);
+  const bySize = others.sort((one, other) => Math.hypot(one.re, one.im) - Math.hypot(other.re, other.im));
+  return -Math.max(...bySize.slice(1).map(({ re }) => re));
+}
+
+/**
+ * The damper coefficient (N.s/m) below which the shunting mode grows (theory/boundary.py), by halving, to a relative
+ * 1e-12; 0 where it is stable without one. RangeError as above, and where no damper up to 1e9 N.s/m holds it.
+ */
+export function criticalDamping(p: LinearParameters, V: number): number {
+  const grows = (C: number): boolean => shuntingMode({ ...p, C }, V).re > 0;
+  if (!grows(0)) {
+    return 0;
+  }
+  let [low, high] = [0, 100];
+  for (; grows(high); high *= 2) {
+    if (high > 1e9) {
+      throw new RangeError("no damper holds the shunting mode");
+    }
+    low = high;
+  }
+  while (high - low > 1e-12 * high) {
+    const middle = 0.5 * (low + high);
+    [low, high] = grows(middle) ? [middle, high] : [low, middle];
+  }
+  return high;
+}
+
+function modesOf(p: LinearParameters, V: number): { modes: Eigenvalue[]; shunting: Eigenvalue } {
   if (!(p.k + p.r > 0)) {
     throw new RangeError("k = 0 N/m and r = 0 N.m/m leave no shunting mode: one of them must be greater than 0");
   }
   const found = decomposition(compressionMatrix(p, V));
   const modes = values(found);
   const fastest = Math.max(...modes.map(({ re, im }) => Math.hypot(re, im)));
-  const grows = modes.filter(({ re }) => re > 1e-9 * fastest);
   const shares = participations(found, modes);
-  const { re, im } = grows[0] ?? modes[shares.indexOf(Math.max(...shares))]!;
-  return { re, im: Math.abs(im) };
+  const { re, im } = modes.find((mode) => mode.re > 1e-9 * fastest) ?? modes[shares.indexOf(Math.max(...shares))]!;
+  return { modes, shunting: { re, im: Math.abs(im) } };
 }
 
 function decomposition(matrix: number[][]): EigenvalueDecomposition {

@@ -100,14 +100,18 @@ export class Unit {
 
   /**
    * Values at `times` in s, rising from that of the start, by name; between two of them the unit chooses its own steps.
-   * What fails on the way ends it.
+   * What fails on the way ends it, and so does what takes longer than `patience` in ms.
    */
-  sample(times: Float64Array, names: string[]): Record<string, Float64Array> {
+  sample(times: Float64Array, names: string[], patience = Infinity): Record<string, Float64Array> {
     const library = this.#library;
     const columns = names.map(() => new Float64Array(times.length));
     const list = this.#list(names);
+    const begin = performance.now();
     try {
       times.forEach((time, i) => {
+        if (performance.now() - begin > patience) {
+          throw new UnitError(`a run takes longer than ${patience / 1000} s with this: it was ended at t = ${time.toFixed(2)} s`);
+        }
         if (i > 0) {
           this.#step(times[i - 1]!, time);
         }

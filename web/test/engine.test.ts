@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { brake } from "../src/engine.js";
+import { brake, type Traces } from "../src/engine.js";
 import { Unit, type Description } from "../src/unit.js";
 
 interface Run {
@@ -15,7 +15,7 @@ interface Run {
 const folder = process.env["UNIT"]!;
 const module = new WebAssembly.Module(readFileSync(join(folder, "CarTrailer.wasm")));
 const description: Description = JSON.parse(readFileSync(join(folder, "CarTrailer.json"), "utf8"));
-const runs: Run[] = JSON.parse(readFileSync(join(folder, "runs.json"), "utf8"));
+const runs: Run[] = JSON.parse(readFileSync(process.env["RUNS"]!, "utf8"));
 const unit = new Unit(module, description);
 const TOLERANCE = 1e-9; // relative to the largest value of a trace
 const FRAME = 16; // ms
@@ -28,7 +28,7 @@ for (const { figure, values, traces } of runs) {
   test(`figure ${figure}`, () => {
     const found = brake(unit, values);
     const distances = Object.entries(traces).map(([name, expected]) => {
-      const column = found[name]!;
+      const column = found[name as keyof Traces];
       assert.equal(column.length, expected.length);
       return largest(expected.map((value, i) => value - column[i]!)) / largest(expected);
     });

@@ -1,8 +1,10 @@
-/** Against theory/linear.py, in the cases that tests/web/test_web.py writes. */
+/** Against theory/linear.py, in the cases that tests/web/test_linear.py writes. */
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { compressionMatrix, eigenvalues, shuntingMode, type LinearParameters } from "../src/linear.js";
+import {
+  compressionMatrix, criticalDamping, eigenvalues, shuntingMode, wheelDecayRate, type LinearParameters,
+} from "../src/linear.js";
 
 interface Case {
   parameters: LinearParameters;
@@ -10,6 +12,8 @@ interface Case {
   matrix: number[][];
   eigenvalues: [number, number][];
   shunting: [number, number];
+  wheels: number;
+  critical?: number;
 }
 
 const cases: Case[] = JSON.parse(readFileSync(process.env["LINEAR_CASES"]!, "utf8"));
@@ -52,6 +56,19 @@ test("the shunting mode", () => {
     const { re, im } = shuntingMode(parameters, V);
     const distance = Math.hypot(re - shunting[0], im - shunting[1]);
     assert(distance <= TOLERANCE * Math.hypot(...shunting), JSON.stringify(parameters));
+  }
+});
+
+test("the slowest of the wheels", () => {
+  for (const { parameters, V, wheels } of cases) {
+    assert(Math.abs(wheelDecayRate(parameters, V) - wheels) <= 1e-8 * Math.abs(wheels), JSON.stringify(parameters));
+  }
+});
+
+test("the boundary", () => {
+  for (const { parameters, V, critical } of cases.filter((one) => one.critical !== undefined)) {
+    const distance = Math.abs(criticalDamping(parameters, V) - critical!);
+    assert(distance <= 1e-9 * critical! + 1e-9, `${distance} off ${critical}: ${JSON.stringify(parameters)}`);
   }
 });
 

@@ -5,6 +5,7 @@ __all__ = [
     "couple",
     "crosscheck",
     "fit",
+    "live",
     "optimise",
     "paper",
     "parameters",

@@ -1,4 +1,4 @@
-"""Where the FMU is, and making it where it is missing or older than what it is made of.
+"""Where the FMU is, and making it where it is missing or older than what it is made of; where the live page is.
 
 In a clone of the repository it is built from the Modelica library; a wheel brings it ready-made.
 """
@@ -16,6 +16,8 @@ from overrun_hitch.parameters import HitchError, unknown
 ROOT = Path(__file__).resolve().parents[3]
 LIBRARY = ROOT / "modelica" / "OverrunHitch"
 READY_MADE = Path(__file__).resolve().parents[1] / "fmus"  # put there by `make dist`
+BUILT = ROOT / "build" if LIBRARY.is_dir() else READY_MADE
+LIVE_PAGE = BUILT / "live" / "index.html"  # `make web`, where Node is
 NAMES = ("CarTrailer", "Car", "Trailer", "Hitch", "Bench")  # of classes, and of their files
 VERSIONS = (2, 3)  # of FMI
 GENERATOR = ROOT / "fmu_build"
@@ -28,7 +30,7 @@ def place(name: str, fmi: int = 2) -> Path:
         raise HitchError(unknown("FMU of ours", name, NAMES))
     if fmi not in VERSIONS:
         raise HitchError(f"fmi = {fmi!r:.40} is not allowed; allowed: {' or '.join(map(str, VERSIONS))}")
-    return (ROOT / "build" if LIBRARY.is_dir() else READY_MADE) / f"fmi{fmi}" / f"{name}.fmu"
+    return BUILT / f"fmi{fmi}" / f"{name}.fmu"
 
 
 CAR_TRAILER, CAR, TRAILER, HITCH, BENCH = (place(name) for name in NAMES)
