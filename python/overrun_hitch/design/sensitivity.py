@@ -56,6 +56,10 @@ class Sensitivity:
     indices: Mapping[str, Indices]
     runs: int
 
+    def ranked(self) -> list[int]:
+        """The places of the parameters, the most important for the first metric first."""
+        return [int(place) for place in np.argsort(-next(iter(self.indices.values())).total, kind="stable")]
+
 
 def varied(base: Parameters) -> dict[str, float]:
     """The parameters that can vary by a share of their value: all but those that are 0."""

@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from itertools import chain
 from pathlib import Path
 
-import numpy as np
-
 from overrun_hitch.design.sensitivity import Sensitivity
 from overrun_hitch.show.table import Column, Numbers, Row, console, show_written, table
 
@@ -17,8 +15,7 @@ def show(title: str, found: Sensitivity, paths: Sequence[Path]) -> None:
     out = console()
     out.print(f"{title}, {found.runs} runs")
     pairs = [(Numbers(f"{metric}\nalone"), Numbers("\ntotal")) for metric in found.indices]
-    order = np.argsort(-next(iter(found.indices.values())).total)
-    out.print(table([Column(), *chain.from_iterable(pairs)], (_cells(found, place) for place in order)))
+    out.print(table([Column(), *chain.from_iterable(pairs)], (_cells(found, place) for place in found.ranked())))
     show_written(out, paths)
 
 

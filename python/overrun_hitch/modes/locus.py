@@ -11,9 +11,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import isotonic_regression
 
 from overrun_hitch.parameters import Parameters
-from overrun_hitch.show.traces import STYLE
+from overrun_hitch.show.traces import STYLE, WIDTH
 from overrun_hitch.theory.linear import shunting_mode
 
 Floats = NDArray[np.float64]
@@ -25,14 +26,17 @@ CURVES: Sequence[dict[str, Any]] = (
     {"color": "#d55e00", "linestyle": (0, (5, 1.6)), "marker": "s"},
     {"color": "#1b7f4d", "linestyle": (0, (6, 1.5, 1, 1.5)), "marker": "^"},
     {"color": "#8e3b9e", "linestyle": (0, (2, 1.2)), "marker": "D"},
-    {"color": "#2a9fd6", "linestyle": (0, (9, 2)), "marker": "v"},
+    {"color": "#1f8fc6", "linestyle": (0, (9, 2)), "marker": "v"},
     {"color": "#555555", "linestyle": (0, (1, 1)), "marker": "P"},
 )
 BOUNDARY: dict[str, Any] = {"color": "#000000", "linewidth": 1.4, "zorder": 1.8}
 SELF_EXCITED: dict[str, Any] = {"color": "#ececec", "linewidth": 0.0, "zorder": 0.5}
 SMOOTH = 0.02  # of a curve's range, the longest straight piece of it
 HALVINGS = 16  # of the step from one mark to the next, at most: a locus turns sharply where it meets the real axis
-EQUAL_C: dict[str, Any] = {"color": "#9a9a9a", "linewidth": 0.6, "zorder": 1.6}
+EQUAL_C: dict[str, Any] = {"color": "#8a8a8a", "linewidth": 0.6, "zorder": 1.6}
+LEADER: dict[str, Any] = {**EQUAL_C, "arrowstyle": "-", "shrinkA": 0.0, "shrinkB": 3.0, "relpos": (0.5, 0.0)}
+NUMBER: dict[str, Any] = {"fontsize": 9, "ha": "center", "va": "bottom", "arrowprops": LEADER}
+DIGIT, LINE = 0.021, 0.042  # of the panel's width, what a digit and a line of NUMBER take
 
 
 @dataclass(frozen=True)
@@ -92,18 +96,18 @@ def draw_loci(
     over C there: curves that differ by the speed alone lie on one another in the plane, but not in this panel.
     """
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(5.8, 6.8 if damper else 4.6), layout="constrained")
+        figure = Figure(figsize=(WIDTH, 6.8 if damper else 4.6), layout="constrained")
         panels = figure.subplots(2 if damper else 1, 1, squeeze=False, height_ratios=[5, 3] if damper else None)[:, 0]
         _draw_plane(panels[0], curves, real, imaginary)
         if damper:
             _draw_growth(panels[1], curves, damper)
-        if title:
-            figure.suptitle(title, fontsize=10)
-        # Above the panels, where there are no curves.
         explanation = ["Numbers: $C$ in N·s/m.", "Grey: self-excited."]
         if any(curve.measured for curve in curves):
             explanation.append("Open marks: measured.")
-        panels[0].legend(loc="lower center", bbox_to_anchor=(0.5, 1.01), ncols=2, title=" ".join(explanation))
+        named = [line for line in panels[0].lines if line.get_label() in {curve.label for curve in curves}]
+        heading = "\n".join(filter(None, [title, " ".join(explanation)]))
+        # Above the panels, where there are no curves.
+        figure.legend(handles=named, loc="outside upper center", ncols=2, title=heading, fontsize=9)
     return figure
 
 
@@ -126,12 +130,12 @@ def _draw_plane(
         axes.plot(curve.eigenvalue.real, curve.eigenvalue.imag, label=curve.label, **style, **_every_mark(curve))
         if curve.measured is not None:
             value = curve.measured[1]
-            axes.plot(value.real, value.imag, **_open_marks(style))
+            axes.plot(value.real, value.imag, label=f"{curve.label}, measured", **_open_marks(style))
     _draw_equal_dampers(axes, curves)
 
 
 def _draw_equal_dampers(axes: Axes, curves: Sequence[LocusCurve]) -> None:
-    """Join equal C; number as many of them as find room."""
+    """Join equal C, with their numbers in a row above the topmost curve."""
     dampers = np.unique(np.concatenate([curve.marks for curve in curves]))
     # From curve to curve as they lie above one another where they begin.
     stacked = sorted(curves, key=lambda curve: float(curve.eigenvalue[0].imag))
@@ -140,27 +144,37 @@ def _draw_equal_dampers(axes: Axes, curves: Sequence[LocusCurve]) -> None:
         values = [curve.at(C) for curve in stacked if C in curve.marks]
         axes.plot([value.real for value in values], [value.imag for value in values], **EQUAL_C)
         tops[float(C)] = max(values, key=lambda value: value.imag)
-    for damper in _with_room(axes, tops):
-        # To the left, because loci rise to the right; but the first stands clear of the boundary.
-        at, side = (tops[damper].real, tops[damper].imag), "left" if damper == dampers[0] else "right"
-        axes.annotate(_number(damper), at, (2.0, 4.5), textcoords="offset points", ha=side, fontsize=9)
-
-
-def _with_room(axes: Axes, tops: dict[float, complex]) -> Iterable[float]:
-    """Those C whose numbers do not touch, from both ends inwards; inside the axes alone."""
     (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
-    kept: dict[float, tuple[float, float]] = {}
-    for damper in sorted(tops, key=lambda damper: (damper != min(tops), -damper)):
-        x, y = (tops[damper].real - left) / (right - left), (tops[damper].imag - low) / (high - low)
-        width = 0.015 + 0.016 * len(_number(damper))
-        free = all(abs(x - other[0]) > width or abs(y - other[1]) > 0.1 for other in kept.values())
-        if free and 0.0 <= x <= 1.0 and 0.0 <= y <= 1.0:
-            kept[damper] = x, y
-    return kept
+    shown = {C: top for C, top in tops.items() if left <= top.real <= right and low <= top.imag <= high}
+    _number_row(axes, shown)
+
+
+def _number_row(axes: Axes, tops: dict[float, complex]) -> None:
+    """The numbers above the panel, none on another, each with a line to its mark (1/s); upright if they are wide."""
+    numbered = sorted(tops, key=lambda C: tops[C].real)
+    numbers = [_number(C) for C in numbered]
+    left, right = axes.get_xlim()
+    places = np.array([(tops[C].real - left) / (right - left) for C in numbered])
+    wide = (max(map(len, numbers), default=0) + 1) * DIGIT
+    is_level = wide * len(numbers) <= 1.0
+    for C, number, place in zip(numbered, numbers, spread(places, wide if is_level else LINE), strict=True):
+        at = (tops[C].real, tops[C].imag)
+        turned = 0.0 if is_level else 90.0
+        axes.annotate(number, at, (place, 1.01), textcoords="axes fraction", rotation=turned, **NUMBER)
+
+
+def spread(places: Floats, apart: float) -> Floats:
+    """The nearest to ascending `places` (n,) that are `apart` at least and in 0 to 1, as far as there is room."""
+    if not len(places):
+        return places
+    apart = min(apart, 1.0 / len(places))
+    steps = apart * np.arange(len(places))
+    nearest = np.asarray(isotonic_regression(places - steps).x)
+    return np.asarray(np.clip(nearest, 0.5 * apart, 1.0 - 0.5 * apart - steps[-1]) + steps)
 
 
 def _number(C: float) -> str:
-    return f"{C:.0f}" if C.is_integer() and C < 1e6 else f"{C:.4g}"
+    return f"{C:.0f}" if 1e3 <= C < 1e6 else f"{C:.4g}"
 
 
 def _draw_growth(axes: Axes, curves: Sequence[LocusCurve], damper: tuple[float, float]) -> None:
@@ -168,11 +182,12 @@ def _draw_growth(axes: Axes, curves: Sequence[LocusCurve], damper: tuple[float, 
     axes.axhline(0.0, **BOUNDARY)
     inside = []
     for curve, style in _styled(curves):
-        axes.plot(curve.C, curve.eigenvalue.real, **style, **_every_mark(curve))
+        axes.plot(curve.C, curve.eigenvalue.real, label=curve.label, **style, **_every_mark(curve))
         within = slice(*np.searchsorted(curve.C, damper))
         inside += [curve.eigenvalue.real[within], np.interp(damper, curve.C, curve.eigenvalue.real)]
         if curve.measured is not None:
-            axes.plot(curve.measured[0], curve.measured[1].real, **_open_marks(style))
+            name = f"{curve.label}, measured"
+            axes.plot(curve.measured[0], curve.measured[1].real, label=name, **_open_marks(style))
     low, high = _limits(np.concatenate(inside), boundary=0.0)
     axes.set_ylim(low, high)
     axes.axhspan(0.0, max(high, 0.0), **SELF_EXCITED)

@@ -8,20 +8,31 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from overrun_hitch.parameters import HitchError, Scenario
 from overrun_hitch.results import scenario_of, values
 from overrun_hitch.show import files
 from overrun_hitch.theory.steady import Steady, steady
 
+Floats = NDArray[np.float64]
+
 # Dark and solid against mid-tone and dashed: told apart in greyscale and by the colour-blind.
 CAR: dict[str, Any] = {"color": "#0b3c6f", "linestyle": "-", "linewidth": 1.3}
 TRAILER: dict[str, Any] = {"color": "#d55e00", "linestyle": (0, (5, 1.6)), "linewidth": 1.3}
 THEORY: dict[str, Any] = {"color": "#777777", "linestyle": (0, (1, 1.5)), "linewidth": 1.1, "zorder": 1.5}
 
+TOLD: dict[str, Any] = {"xycoords": "axes fraction", "ha": "center", "va": "top", "fontsize": 9}
+TOLD |= {"bbox": {"facecolor": "#ffffff", "edgecolor": "none", "pad": 1.0}}
+
+MARGIN = 0.05  # of what a panel shows, beyond either end
+START = 0.25  # s: what comes to rest sooner is the start's, not the motion's; at most a tenth of the run
+SQUEEZED = 2.0  # times the height of rest and what follows, with the start: then the start is cut
+WIDTH = 5.0  # in, of a figure: on a telephone's screen its text is as large as a point, about
 STYLE: dict[Any, Any] = {
     "font.size": 10.0,
     "axes.grid": True,
@@ -42,7 +53,7 @@ def draw(run: xr.Dataset) -> Figure:
     is_step = not run.attrs.get("profile")
     theory = _theory(scenario) if is_step and not run.attrs.get("grade") else None
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(6.4, 6.6), layout="constrained")
+        figure = Figure(figsize=(WIDTH, 6.2), layout="constrained")
         figure.suptitle(_title(scenario, is_step), fontsize=10)
         accelerations, compression, slips = figure.subplots(3, 1, sharex=True)
         time = values(run, "time")
@@ -56,6 +67,8 @@ def draw(run: xr.Dataset) -> Figure:
         if theory is not None:
             accelerations.axhline(theory.A, label="steady (theory)", **THEORY)
             compression.axhline(theory.D, label="steady (theory)", **THEORY)
+        for axes in (accelerations, compression, slips):
+            _cut_start(axes, time)
         _label(accelerations, "Acceleration (m/s²)")
         _label(compression, "Compression (m)")
         _label(slips, "Slip (%)")
@@ -81,6 +94,22 @@ def rendered(figure: Figure, kind: str) -> bytes:
     with mpl.rc_context(STYLE):
         figure.savefig(buffer, format=kind, **KINDS[kind])
     return buffer.getvalue()
+
+
+def _cut_start(axes: Axes, time: Floats) -> None:
+    """Let the panel show rest and what follows the start where that would squeeze it, and say how far it goes."""
+    lines = [np.asarray(line.get_ydata(), dtype=float) for line in axes.lines]
+    traces = np.stack([line for line in lines if len(line) == len(time)])
+    begun = time - time[0] > min(START, 0.1 * float(time[-1] - time[0]))
+    shown = np.concatenate([traces[:, begun].ravel(), *(line for line in lines if len(line) != len(time)), [0.0]])
+    if not 0.0 < SQUEEZED * np.ptp(shown) < np.ptp(traces):
+        return
+    margin = MARGIN * float(np.ptp(shown))
+    low, high = float(shown.min()) - margin, float(shown.max()) + margin
+    axes.set_ylim(low, high)
+    beyond = [f"{end:.3g}" for end in (float(traces.min()), float(traces.max())) if not low <= end <= high]
+    told = f"at the start to {' and '.join(beyond)}"
+    axes.annotate(told, (0.5, 0.97), **TOLD)
 
 
 def _label(axes: Axes, name: str) -> None:

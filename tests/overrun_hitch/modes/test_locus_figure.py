@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from matplotlib.lines import Line2D
+from matplotlib.text import Text
 
-from overrun_hitch.modes.locus import LocusCurve, computed, draw_loci
+from overrun_hitch.modes.locus import LocusCurve, computed, draw_loci, spread
 from overrun_hitch.parameters import CASES
-from overrun_hitch.show.traces import save
+from overrun_hitch.show.traces import rendered, save
 from overrun_hitch.theory.linear import shunting_mode
 
 DAMPERS = [0.0, 50.0, 100.0, 200.0, 400.0, 800.0, 1600.0, 3200.0]
@@ -50,7 +54,28 @@ def test_axes_boundary_and_numbers(curves: list[LocusCurve]) -> None:
     assert plane.get_xlim() == (-5.0, 0.3)
     assert plane.get_ylim() == (0.0, 12.0)
     numbers = {text.get_text() for text in plane.texts}
-    assert {"0", "3200", "1600", "800"} <= numbers <= {f"{C:g}" for C in DAMPERS}
+    assert numbers == {f"{C:g}" for C in DAMPERS}
+
+
+@given(st.lists(st.floats(0.0, 1.0), max_size=30), st.floats(0.001, 0.2))
+def test_numbers_stand_apart_and_near_their_marks(places: list[float], apart: float) -> None:
+    wanted = np.sort(places)
+    found = spread(wanted, apart)
+    room = min(apart, 1.0 / max(len(places), 1))
+    assert (np.diff(found) >= room - 1e-12).all()
+    assert len(found) == 0 or (found[0] >= 0.5 * room - 1e-12 and found[-1] <= 1.0 - 0.5 * room + 1e-12)
+    if len(places) and (np.diff(wanted) > room).all() and wanted[0] > 0.5 * room and wanted[-1] < 1.0 - 0.5 * room:
+        np.testing.assert_allclose(found, wanted, atol=1e-12)
+
+
+@pytest.mark.parametrize("count", [2, 8, 16])
+def test_no_number_lies_on_another(count: int) -> None:
+    marks = np.geomspace(1.0, 40000.0, count)
+    figure = draw_loci([computed("case ii", CASES["ii"], 20.0, marks)], title="x")
+    rendered(figure, "svg")
+    boxes = [Text.get_window_extent(number) for number in figure.axes[0].texts]  # without the line to the mark
+    assert len(boxes) == count
+    assert not [pair for pair in itertools.combinations(boxes, 2) if pair[0].overlaps(pair[1])]
 
 
 def test_measured_points_are_open_marks() -> None:
@@ -61,7 +86,7 @@ def test_measured_points_are_open_marks() -> None:
             line for line in axes.lines if line.get_markerfacecolor() == "none" and line.get_linestyle() == "None"
         ]
         assert [tuple(line.get_xydata()[0]) for line in points] == [pytest.approx(expected)]
-    assert "measured" in figure.axes[0].get_legend().get_title().get_text()
+    assert "measured" in figure.legends[0].get_title().get_text()
 
 
 def test_one_damper_alone_can_be_drawn() -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 import xarray as xr
+from matplotlib.axes import Axes
 
 from overrun_hitch.parameters import FIGURES
 from overrun_hitch.show.traces import draw, write
@@ -21,6 +22,27 @@ def test_five_traces_with_units(oracle_run: OracleRun) -> None:
     assert panels[-1].get_xlabel() == "Time (s)"
     traces = [line for axes in panels for line in axes.lines if len(line.get_xydata()) > 2]
     assert len(traces) == 5
+
+
+def told(axes: Axes) -> list[str]:
+    return [text.get_text() for text in axes.texts]
+
+
+def test_a_start_does_not_squeeze_what_follows(oracle_run: OracleRun) -> None:
+    run = oracle_run(FIGURES["8"]).copy(deep=True)
+    usual = [axes.get_ylim() for axes in draw(run).axes]
+    assert [told(axes) for axes in draw(run).axes] == [[], [], []]
+    run["a_trailer"][0], run["a_car"][1] = 32.0, -64.0
+    above, *others = draw(run).axes
+    assert told(above) == ["at the start to -64 and 32"] and above.get_ylim() == pytest.approx(usual[0], rel=0.1)
+    assert [axes.get_ylim() for axes in others] == usual[1:] and not [word for axes in others for word in told(axes)]
+
+
+def test_what_comes_later_is_never_cut(oracle_run: OracleRun) -> None:
+    run = oracle_run(FIGURES["8"]).copy(deep=True)
+    run["a_trailer"][300] = 32.0
+    (low, high), words = draw(run).axes[0].get_ylim(), told(draw(run).axes[0])
+    assert low < -4.0 and high > 32.0 and words == []
 
 
 @pytest.mark.parametrize("figure", sampled(["6a", "10"], ["10"]))

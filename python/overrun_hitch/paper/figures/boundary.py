@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from overrun_hitch.paper.study.beyond import BESIDE, CHECKED_RATIOS, Boundary
-from overrun_hitch.show.traces import STYLE
+from overrun_hitch.show.traces import STYLE, WIDTH
 
 STEP = 10.0  # N.s/m from contour to contour
 CASE_NAMES = ("i", "ii", "iii")  # of CHECKED_RATIOS
@@ -24,7 +24,7 @@ MISS: dict[str, Any] = {"linestyle": "none", "marker": "X", "markersize": 9.0, "
 def draw(found: Boundary) -> Figure:
     """Contours of C_crit over r/k and V; a mark where the FMU grows with less damping and decays with more."""
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(5.8, 4.8), layout="constrained")
+        figure = Figure(figsize=(WIDTH, 4.8), layout="constrained")
         axes = figure.subplots()
         _draw_contours(axes, found)
         for name, ratio in zip(CASE_NAMES, CHECKED_RATIOS, strict=True):
@@ -35,13 +35,15 @@ def draw(found: Boundary) -> Figure:
         axes.set_xlabel("Trailer brake torque over hitch force, $r/k$ (m)")
         axes.set_ylabel("Speed $V$ (m/s)")
         axes.grid(visible=False)
-        figure.legend(loc="outside upper center", ncols=2)
+        named = [line for line in axes.lines if not str(line.get_label()).startswith("_")]
+        figure.legend(handles=named, loc="outside upper center")
     return figure
 
 
 def _draw_contours(axes: Axes, found: Boundary) -> None:
     levels = np.arange(STEP, found.C_crit.max(), STEP)
     contours = axes.contour(found.ratios, found.speeds, found.C_crit, levels, **CONTOUR)
+    contours.set_label("$C_\\mathrm{crit}$ (N·s/m)")
     column = [float(np.interp(NUMBERED_AT, found.ratios, row)) for row in found.C_crit]
     places = [(NUMBERED_AT, float(np.interp(level, column, found.speeds))) for level in levels if level > column[0]]
     axes.clabel(contours, fmt="%g", fontsize=9, manual=places)
@@ -49,7 +51,7 @@ def _draw_contours(axes: Axes, found: Boundary) -> None:
 
 
 def _draw_checks(axes: Axes, found: Boundary) -> None:
-    aside = f"FMU grows with {100.0 * BESIDE:g} % less damping\nand decays with {100.0 * BESIDE:g} % more"
+    aside = f"FMU grows with {100.0 * BESIDE:g} % less damping, decays with {100.0 * BESIDE:g} % more"
     for holds, label, style in ((True, aside, MARK), (False, "FMU does not", MISS)):
         points = [(check.ratio, check.V) for check in found.checks if check.holds == holds]
         if points:

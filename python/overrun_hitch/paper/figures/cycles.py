@@ -15,7 +15,7 @@ from scipy.interpolate import PchipInterpolator
 from overrun_hitch.experiments.limit_cycle import weight_push
 from overrun_hitch.paper.study.beyond import CYCLE_GRADE, CYCLE_SPEED, Motion
 from overrun_hitch.parameters import CASES
-from overrun_hitch.show.traces import STYLE
+from overrun_hitch.show.traces import STYLE, WIDTH
 from overrun_hitch.theory.boundary import critical_damping
 from overrun_hitch.theory.describing_function import predicted_cycles
 
@@ -27,8 +27,8 @@ HIGHEST = 100.0  # mm
 CLEARANCES: Sequence[dict[str, Any]] = (
     {"line": ("#555555", (0, (1, 1)), 1.4), "mark": ("#555555", "P", 8.0)},
     {"line": ("#d55e00", (0, (5, 4)), 1.4), "mark": ("#d55e00", "s", 4.0)},
-    {"line": ("#5fb58a", "-", 3.0), "mark": ("#1b7f4d", "^", 8.5)},
-    {"line": ("#b9cbe0", "-", 6.0), "mark": ("#0b3c6f", "o", 12.0)},
+    {"line": ("#4aa377", "-", 3.0), "mark": ("#1b7f4d", "^", 8.5)},
+    {"line": ("#7593bb", "-", 6.0), "mark": ("#0b3c6f", "o", 12.0)},
 )
 BOUNDARY: dict[str, Any] = {"color": "#000000", "linewidth": 1.2, "zorder": 1.5}
 STEADY: dict[str, Any] = {"color": "#000000", "linewidth": 0.9, "linestyle": (0, (2, 3)), "zorder": 1.5}
@@ -39,7 +39,7 @@ UNSETTLED = "#bbbbbb"
 def draw(found: Sequence[Motion]) -> Figure:
     """Amplitude and frequency over C for each clearance: lines by the describing function, marks on the FMU."""
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(5.8, 7.2), layout="constrained")
+        figure = Figure(figsize=(WIDTH, 7.2), layout="constrained")
         amplitudes, frequencies = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
         C_crit = critical_damping(CASES["ii"], CYCLE_SPEED)
         for axes in (amplitudes, frequencies):
@@ -74,12 +74,13 @@ def _draw_prediction(amplitudes: Axes, frequencies: Axes, eps: float, C_crit: fl
     points = np.log(np.array(sorted(found)))
     between = np.linspace(points[0, 0], points[-1, 0], 100)
     C, frequency = np.exp(PchipInterpolator(points[:, 0], points[:, 1:])(between)).T
-    amplitudes.plot(C, MILLI * np.exp(between), **_line(style))
-    frequencies.plot(C, frequency, **_line(style))
+    name = f"{_clearance(eps)}, predicted"
+    amplitudes.plot(C, MILLI * np.exp(between), label=name, **_line(style))
+    frequencies.plot(C, frequency, label=name, **_line(style))
 
 
 def _draw_motion(amplitudes: Axes, frequencies: Axes, motion: Motion, style: dict[str, Any]) -> None:
-    mark = _mark(style)
+    mark = {**_mark(style), "label": f"{_clearance(motion.eps)}, FMU: {motion.fmu.verdict}"}
     if motion.fmu.verdict == "runs away":
         amplitudes.plot(motion.C, 0.91 * HIGHEST, **mark)
         amplitudes.plot(motion.C, 0.965 * HIGHEST, **AWAY)
@@ -92,6 +93,10 @@ def _draw_motion(amplitudes: Axes, frequencies: Axes, motion: Motion, style: dic
             mark["markerfacecolor"] = mark["markeredgecolor"]
         amplitudes.plot(motion.C, MILLI * motion.fmu.amplitude, **mark)
         frequencies.plot(motion.C, motion.fmu.frequency, **mark)
+
+
+def _clearance(eps: float) -> str:
+    return f"$\\epsilon$ = {eps:g} m"
 
 
 def _line(style: dict[str, Any]) -> dict[str, Any]:
@@ -121,7 +126,5 @@ def _legend(styles: dict[float, dict[str, Any]], C_crit: float, found: Sequence[
         entry(f"$C_\\mathrm{{crit}}$ = {C_crit:.1f} N·s/m", **BOUNDARY),
         entry("steady compression beyond $\\epsilon$", **STEADY),
     ]
-    clearances = [
-        entry(f"$\\epsilon$ = {eps:g} m", **{**_mark(style), **_line(style)}) for eps, style in styles.items()
-    ]
+    clearances = [entry(_clearance(eps), **{**_mark(style), **_line(style)}) for eps, style in styles.items()]
     return [*clearances, *(handle for handle in meanings if handle is not None), *limits]

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from overrun_hitch.paper.study.beyond import DEFLECTION, designed
 from overrun_hitch.paper.study.study import BRAKE_TORQUE, SteadyState
 from overrun_hitch.parameters import CASES, DATUM
-from overrun_hitch.show.traces import STYLE
+from overrun_hitch.show.traces import STYLE, WIDTH
 from overrun_hitch.theory.steady import steady
 
 RATIOS = np.linspace(0.0, 10.0, 201)  # r/k in m
@@ -41,7 +41,7 @@ def stiffness(ratio: float, deflection: float, deceleration: float = DECELERATIO
 def draw(found: Mapping[str, SteadyState]) -> Figure:
     """A/A_c over r/k by theory, the FMU's at the nine cases (`found`), and on the right k for given deflections."""
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(5.8, 4.6), layout="constrained")
+        figure = Figure(figsize=(WIDTH, 4.6), layout="constrained")
         ratio_axes = figure.subplots()
         stiffness_axes = ratio_axes.twinx()
         _draw_ratios(ratio_axes, found)
@@ -78,10 +78,9 @@ def _is_datum(case: str) -> bool:
 def _draw_stiffness(axes: Axes) -> None:
     for deflection, dashes in zip(DEFLECTIONS, DASHES, strict=True):
         k = [stiffness(ratio, deflection) for ratio in RATIOS.tolist()]
-        axes.plot(RATIOS, k, linestyle=dashes, **STIFFNESS)
-        axes.annotate(
-            f"$D$ = {deflection:g} m", (NAMED_AT, stiffness(NAMED_AT, deflection)), color=STIFFNESS["color"], **ABOVE
-        )
+        name = f"$D$ = {deflection:g} m"
+        axes.plot(RATIOS, k, label=name, linestyle=dashes, **STIFFNESS)
+        axes.annotate(name, (NAMED_AT, stiffness(NAMED_AT, deflection)), color=STIFFNESS["color"], **ABOVE)
     axes.set_yscale("log")
     axes.set_ylim(1e2, 1e6)  # four decades beside the four tenths of A/A_c: one grid serves both
     axes.set_ylabel("Drawbar stiffness $k$ (N/m)", color=STIFFNESS["color"])

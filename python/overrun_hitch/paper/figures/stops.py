@@ -14,7 +14,7 @@ from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
 
 from overrun_hitch.paper.study.beyond import STOP_ALLOWED, Envelope, Shunting
-from overrun_hitch.show.traces import STYLE
+from overrun_hitch.show.traces import STYLE, WIDTH
 from overrun_hitch.theory.envelope import predicted_amplitude, speed
 
 Floats = NDArray[np.float64]
@@ -29,7 +29,7 @@ STOPS: Sequence[dict[str, Any]] = (
     {"color": "#1b7f4d", "linestyle": (0, (7, 1.6, 1.5, 1.6)), "marker": "^"},
     {"color": "#555555", "linestyle": (0, (1, 1)), "marker": "P"},
 )
-TRACE: dict[str, Any] = {"color": "#7f9dbf", "linewidth": 0.9}
+TRACE: dict[str, Any] = {"color": "#6f93bd", "linewidth": 0.9}
 ENVELOPE: dict[str, Any] = {"color": "#000000", "linestyle": (0, (4, 1.6)), "linewidth": 1.2}
 STEADY: dict[str, Any] = {"color": "#000000", "linewidth": 0.9, "linestyle": (0, (2, 3)), "zorder": 1.5}
 TURNING: dict[str, Any] = {"linestyle": "none", "marker": "|", "markersize": 13.0, "markeredgewidth": 1.6}
@@ -38,11 +38,11 @@ TURNING: dict[str, Any] = {"linestyle": "none", "marker": "|", "markersize": 13.
 def draw(found: Sequence[Shunting]) -> Figure:
     """Above: the compression of the first stop. Middle: amplitudes of all. Below: how far they are from theory's."""
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(5.8, 8.4), layout="constrained")
+        figure = Figure(figsize=(WIDTH, 8.4), layout="constrained")
         trace, amplitudes, errors = figure.subplots(3, 1, sharex=True, height_ratios=[3, 4, 2.4])
         _draw_trace(trace, found[0])
         for axes in (trace, amplitudes):
-            axes.axhline(MILLI * found[0].steady, **STEADY)
+            axes.axhline(MILLI * found[0].steady, label="steady compression", **STEADY)
         for stop, style in zip(found, STOPS, strict=True):
             _draw_amplitudes(amplitudes, stop, style)
             _draw_errors(errors, stop, style)
@@ -61,7 +61,7 @@ def draw(found: Sequence[Shunting]) -> Figure:
             loc="outside upper center",
             ncols=2,
             fontsize=9,
-            title="Marks: FMU. Lines: growth rate summed up; at the bottom, linear equations solved.",
+            title="Marks: FMU. Lines: growth rate summed up;\nat the bottom, linear equations solved.",
             title_fontsize=9,
         )
     return figure
@@ -70,9 +70,9 @@ def draw(found: Sequence[Shunting]) -> Figure:
 def _draw_trace(axes: Axes, found: Shunting) -> None:
     stop = found.stop
     time, amplitude = _prediction(found)
-    axes.plot(stop.time, MILLI * stop.compression, **TRACE)
+    axes.plot(stop.time, MILLI * stop.compression, label="FMU", **TRACE)
     for side in (-1.0, 1.0):
-        axes.plot(time, MILLI * (found.steady + side * amplitude), **ENVELOPE)
+        axes.plot(time, MILLI * (found.steady + side * amplitude), label="predicted envelope", **ENVELOPE)
     axes.set_ylabel("Compression (mm)")
     V_0 = stop.scenario.parameters.V_0
     A = float(speed(stop.scenario, np.ones(1))[0]) - V_0
@@ -90,8 +90,10 @@ def _draw_trace(axes: Axes, found: Shunting) -> None:
 
 def _draw_amplitudes(axes: Axes, found: Shunting, style: dict[str, Any]) -> None:
     time, amplitude = _prediction(found)
-    axes.plot(time, MILLI * amplitude, color=style["color"], linestyle=style["linestyle"], linewidth=1.3)
-    axes.plot(found.fmu.time, MILLI * found.fmu.amplitude, **_open_marks(style), markevery=2)
+    predicted, on_fmu = (f"{_name(found)}, {side}" for side in ("predicted", "FMU"))
+    line = {"color": style["color"], "linestyle": style["linestyle"], "linewidth": 1.3, "label": predicted}
+    axes.plot(time, MILLI * amplitude, **line)
+    axes.plot(found.fmu.time, MILLI * found.fmu.amplitude, label=on_fmu, **_open_marks(style), markevery=2)
     V = speed(found.stop.scenario, time)
     if V[-1] < found.turning < V[0]:
         at = np.interp(-found.turning, -V, time), MILLI * amplitude.max()
@@ -99,8 +101,10 @@ def _draw_amplitudes(axes: Axes, found: Shunting, style: dict[str, Any]) -> None
 
 
 def _draw_errors(axes: Axes, found: Shunting, style: dict[str, Any]) -> None:
-    axes.plot(*_error(found.integrated), color=style["color"], linestyle=style["linestyle"], linewidth=1.1)
-    axes.plot(*_error(found.in_theory), **_open_marks(style), markevery=2)
+    solved, on_fmu = (f"{_name(found)}, {side}" for side in ("linear equations", "FMU"))
+    line = {"color": style["color"], "linestyle": style["linestyle"], "linewidth": 1.1, "label": solved}
+    axes.plot(*_error(found.integrated), **line)
+    axes.plot(*_error(found.in_theory), label=on_fmu, **_open_marks(style), markevery=2)
 
 
 def _error(found: Envelope) -> tuple[Floats, Floats]:
@@ -132,7 +136,7 @@ def _legend(found: Sequence[Shunting]) -> list[Line2D]:
 
     stops = [
         entry(
-            f"$C$ = {stop.stop.scenario.parameters.C:g} N·s/m, from {MILLI * _start(stop):.0f} mm",
+            _name(stop),
             **{**_open_marks(style), "linestyle": style["linestyle"], "color": style["color"]},
         )
         for stop, style in zip(found, STOPS, strict=True)
@@ -146,5 +150,6 @@ def _legend(found: Sequence[Shunting]) -> list[Line2D]:
     return [*stops, *meanings]
 
 
-def _start(found: Shunting) -> float:
-    return abs(found.stop.scenario.parameters.compression_start - found.steady)
+def _name(found: Shunting) -> str:
+    p = found.stop.scenario.parameters
+    return f"$C$ = {p.C:g} N·s/m, from {MILLI * abs(p.compression_start - found.steady):.0f} mm"

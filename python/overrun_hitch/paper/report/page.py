@@ -1,12 +1,15 @@
-"""The report: everything of a study that one page shows, computed; and the page, made from report.html.jinja."""
+"""The report: everything of a study that one page shows, computed; and the page, made from page.html.jinja."""
 
 from __future__ import annotations
 
+import json
 import math
 import platform
 import re
+from base64 import b64encode
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from hashlib import sha256
 from importlib.metadata import version
 from importlib.resources import files
 from pathlib import Path
@@ -22,11 +25,11 @@ from overrun_hitch.paper.claims.claim import Claim
 from overrun_hitch.paper.figures.all import figures, stem
 from overrun_hitch.paper.report import captions
 from overrun_hitch.paper.report.lessons import Lesson, amplitude_error, decides, lessons
+from overrun_hitch.paper.report.readings import readings
 from overrun_hitch.paper.report.svg import inline
 from overrun_hitch.paper.study import beyond, device, jacobian
 from overrun_hitch.paper.study.study import BRAKE_TORQUE, DAMPED, SETTINGS, Study
 from overrun_hitch.show.table import console, show_written
-from overrun_hitch.show.traces import rendered
 
 COMMAND = ".venv/bin/hitch report"  # what `make report` does
 SHOWN_CASE = "ii"  # of the linearisations
@@ -55,6 +58,7 @@ class Picture:
     title: str
     caption: str
     svg: str
+    readings: Markup  # JSON: what readings.js shows
 
 
 @dataclass(frozen=True)
@@ -93,15 +97,19 @@ def report_of(study: Study, command: str, progress: Callable[[str], object] = la
 
 
 def page(report: Report) -> str:
-    """The page as HTML, complete in itself: no script, nothing to load."""
+    """The page as HTML, complete in itself: nothing to load, and of scripts its own alone may run."""
     environment = jinja2.Environment(
         autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
     environment.filters |= {"number": number, "typeset": typeset, "complex": complex_number}
-    template = environment.from_string(files(__package__).joinpath("page.html.jinja").read_text("utf-8"))
+    template = environment.from_string(_part("page.html.jinja"))
+    script = _part("readings.js")
     study = report.study
     return template.render(
         report=report,
+        style=Markup(_part("page.css")),
+        script=Markup(script),
+        script_hash=b64encode(sha256(script.encode()).digest()).decode(),
         study=study,
         engaged=study.at_zero_slip[SHOWN_CASE],
         engaged_modes=jacobian.eigenvalues(study.at_zero_slip[SHOWN_CASE]),
@@ -179,7 +187,14 @@ def _lagging(checks: Sequence[device.LagCheck]) -> Finding:
 
 def _picture(name: str, figure: Figure, title: str, caption: str) -> Picture:
     key = stem(name)
-    return Picture(key, title, caption, inline(rendered(figure, "svg"), f"{key}-", title))
+    svg = inline(figure, f"{key}-", title)
+    # No element of the page ends in what a curve may be called.
+    read = json.dumps(readings(figure), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+    return Picture(key, title, caption, svg, Markup(read))
+
+
+def _part(name: str) -> str:
+    return files(__package__).joinpath(name).read_text("utf-8")
 
 
 def number(value: float, digits: int = 5, keep_zeros: bool = False) -> Markup:
