@@ -24,6 +24,7 @@ from ..ir.models import (
     Through,
 )
 from ..ir.symbols import TIME
+from .early import Early
 from .events import event_sizes, print_events
 from .loops import adjoint_statement, check_stack, declare_loops, gradient_lines, numbered, tangent_statement
 from .text import (
@@ -47,9 +48,10 @@ def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str, coupli
     """variables.h and model.c of ``model``, with the all-zero placeholder where the content hash will stand."""
     check_stack(model, jacobian)
     names = identifiers(model.value_references)
-    header = _header(model, identifier, names, coupling)
     printer = Printer(names, _locals(jacobian), steady(model), numbered(model))
-    text = _model(model, jacobian, printer) + _coupling(coupling, model) + print_events(model, printer)
+    early = Early(model, jacobian, printer)
+    text = _model(model, jacobian, printer, early) + _coupling(coupling, model) + print_events(model, printer)
+    header = _header(model, identifier, names, coupling, early.size)
     return CSources({"variables.h": header, "model.c": text})
 
 
@@ -62,9 +64,12 @@ def _locals(jacobian: JacobianModel) -> dict[str, str]:
     return identifiers(names)
 
 
-def _header(model: SortedModel, identifier: str, names: dict[str, str], coupling: Coupling | None) -> str:
+def _header(
+    model: SortedModel, identifier: str, names: dict[str, str], coupling: Coupling | None, n_steady: int
+) -> str:
     tolerance = model.experiment.tolerance or DEFAULT_TOLERANCE
     fields = "\n".join(f"        double {c}; {comment(name)}" for name, c in names.items())
+    fields += f"\n        double steady[{n_steady}]; /* see model_steady */" if n_steady else ""
     return f"""{comment(f"Generated from {model.name}: the table of variables. Its order is the FMI value reference.")}
 #ifndef VARIABLES_H
 #define VARIABLES_H
@@ -97,21 +102,23 @@ typedef union {{
 """
 
 
-def _model(model: SortedModel, jacobian: JacobianModel, printer: Printer) -> str:
+def _model(model: SortedModel, jacobian: JacobianModel, printer: Printer, early: Early) -> str:
     relations = ", ".join(string(f"{r.text} ({r.origin})") for r in model.relations) or '""'
     kinds = _kinds(model)
     rows = "\n".join(_info(name, kinds[name], model) for name in model.value_references)
-    outputs = assignment_lines(model.assignments, printer)
-    derivatives = assignment_lines(needed_for(model.derivatives, model), printer)
+    outputs = assignment_lines(early.others(model.assignments), early.printer)
+    derivatives = assignment_lines(early.others(needed_for(model.derivatives, model)), early.printer)
     references = [str(model.value_references[name]) for name in model.residuals] or ["0"]
     sections = [
         declare_loops(model, printer.text, lambda assignments: assignment_lines(assignments, printer)),
         function("model_parameters(Variables *v)", assignment_lines(model.parameter_assignments, printer)),
+        early.table(),
+        function("model_steady(Variables *v)", early.lines(printer)),
         function("model_start(Variables *v, const bool holds[])", assignment_lines(model.start_assignments, printer)),
         function("model_derivatives(Variables *v, const bool holds[])", derivatives),
         function("model_outputs(Variables *v, const bool holds[])", outputs),
-        _jacobian(model, jacobian, printer),
-        function("model_relations(Variables *v, const bool holds[], double z[])", _relations(model, printer)),
+        _jacobian(model, jacobian, early.printer),
+        function("model_relations(Variables *v, const bool holds[], double z[])", _relations(model, early)),
         _chain("model_tangent", jacobian, printer, _tangent),
         function(
             "model_input_tangent(const Variables *v, const bool holds[], Variables *d)",
@@ -234,13 +241,13 @@ def _product(value: sympy.Expr, factor: str, printer: Printer) -> str:
     return factor if value == 1 else f"-{factor}" if value == -1 else f"({printer.text(value)})*{factor}"
 
 
-def _relations(model: SortedModel, printer: Printer) -> list[str]:
+def _relations(model: SortedModel, early: Early) -> list[str]:
     """Each residual goes to z as soon as it is known: read back later, in pairs, it would stall (1 % of a run)."""
     index = {name: i for i, name in enumerate(model.residuals)}
     lines = []
     for block in needed_for(list(index), model):
-        lines += assignment_lines([block], printer)
-        lines += [f"z[{index[name]}] = v->{printer.names[name]};" for name in block.targets if name in index]
+        lines += assignment_lines(early.others([block]), early.printer)
+        lines += [f"z[{index[name]}] = v->{early.printer.names[name]};" for name in block.targets if name in index]
     return lines
 
 

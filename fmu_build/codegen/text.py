@@ -41,11 +41,17 @@ class Printer(C11CodePrinter):  # type: ignore[misc]
     """C expressions over ``v->name``; doubles with the digits that give them back exactly.
 
     ``names`` are the C names of the variables, ``locals_`` those of partial derivatives, ``steady`` names of variables
-    that do not change while the states do, ``loops`` the loops by their C names.
+    that do not change while the states do, ``loops`` the loops by their C names. ``early`` is what is computed of these
+    variables before all else, by its place in ``v->steady[]``, and is added to on the way; None: nothing is.
     """
 
     def __init__(
-        self, names: dict[str, str], locals_: dict[str, str], steady: frozenset[str], loops: dict[str, Loop]
+        self,
+        names: dict[str, str],
+        locals_: dict[str, str],
+        steady: frozenset[str],
+        loops: dict[str, Loop],
+        early: dict[sympy.Expr, int] | None = None,
     ) -> None:
         super().__init__({"math_macros": {}})  # C11 has no M_PI
         self.names = names
@@ -53,7 +59,26 @@ class Printer(C11CodePrinter):  # type: ignore[misc]
         self.shares_locals = any("[" in text for text in locals_.values())  # they stand in an array
         self.steady = steady
         self.loops = loops
+        self.early = early
         self._texts: dict[sympy.Expr, str] = {}
+
+    def _print(self, expr: sympy.Basic, **options: object) -> str:
+        if self.early is not None and self.is_early(expr):
+            return f"v->steady[{self.early.setdefault(expr, len(self.early))}]"
+        return str(super()._print(expr, **options))
+
+    def is_early(self, expr: sympy.Basic) -> bool:
+        """Whether it is known early and slow: with a quotient, a root or a function, each as long as a dozen sums."""
+        return (
+            isinstance(expr, (sympy.Mul, sympy.Add, sympy.Pow, sympy.Function))
+            and {s.name for s in expr.free_symbols} <= self.steady
+            and bool(expr.free_symbols)
+            and any(
+                isinstance(part, sympy.Function) != isinstance(part, sympy.Piecewise)
+                or (isinstance(part, sympy.Pow) and not part.exp.is_nonnegative)
+                for part in sympy.preorder_traversal(expr)
+            )
+        )
 
     def _print_Symbol(self, expr: sympy.Symbol) -> str:
         if (relation := relation_of(expr)) is not None:

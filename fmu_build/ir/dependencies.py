@@ -9,7 +9,7 @@ import sympy
 
 from .equations import Assignment, Block
 from .models import LoopGradient, SortedModel
-from .symbols import TIME, symbol
+from .symbols import symbol
 
 
 def needed_for(targets: Iterable[str], model: SortedModel) -> tuple[Block, ...]:
@@ -28,10 +28,15 @@ def tunable_parameters(model: SortedModel) -> frozenset[str]:
 
 
 def steady(model: SortedModel) -> frozenset[str]:
-    """What follows from parameters and inputs alone: it does not change while the states do."""
-    moving = {*model.states, TIME}
-    unmoved = {name for name, sources in model.sources.items() if not sources & moving}
-    return frozenset((*model.parameters, *model.inputs)) | unmoved
+    """What follows from parameters and inputs alone: it does not change while the states do.
+
+    What a loop, a condition or an event gives its value is left out: it is computed when these are.
+    """
+    found = {*model.parameters, *model.inputs} - {name for b in model.start_assignments for name in b.targets}
+    for block in (*model.parameter_assignments, *model.assignments):
+        if isinstance(block, Assignment) and {s.name for s in block.arguments} <= found:
+            found.add(block.target)
+    return frozenset(found)
 
 
 def start_value(name: str, model: SortedModel) -> float:

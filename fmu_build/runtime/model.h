@@ -30,7 +30,7 @@
  *   typedef union {
  *       struct { double time; double x; double v; double der_x; double der_v; ... };
  *       double at[N_VARIABLES];
- *   } Variables;
+ *   } Variables;                                   the struct may end with what model_steady keeps
  */
 
 /* and #define N_COUPLINGS 0, or 1, and HAS_EVENTS 0, or 1: macros, because they decide what is compiled (see
@@ -141,6 +141,13 @@ void model_subtract_product(const double *restrict jacobian, double shift, const
 
 /* Calculated parameters, from parameters. */
 void model_parameters(Variables *v);
+
+/* What follows from parameters, calculated ones included, and inputs alone: some variables, and quotients and functions
+ * of them that the others need. It has to follow before any of those below is called; moves_steady tells on which
+ * inputs it depends. */
+void model_steady(Variables *v);
+
+extern const bool moves_steady[AT_LEAST_ONE(N_INPUTS)];
 
 /* Start values of the states of kind STATE_CALCULATED, from parameters (calculated ones included) and all that is given
  * at the start; it may write other variables on the way. */

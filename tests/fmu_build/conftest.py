@@ -77,7 +77,8 @@ class CompiledModel:
     def __init__(self, model: SortedModel, folder: Path) -> None:
         jacobian = differentiate(model)
         algebra = print_elimination(eliminate(jacobian.entries, len(model.states)))
-        for name, text in {**print_c(model, jacobian, "M").files, **algebra.files}.items():
+        files = {**print_c(model, jacobian, "M").files, **algebra.files}
+        for name, text in files.items():
             (folder / name).write_text(text, encoding="utf-8")
         (folder / "unit.h").touch()
         library = folder / "model.so"
@@ -89,7 +90,8 @@ class CompiledModel:
         self.model = model
         self._entries = tuple(jacobian.entries)
         self.references = model.value_references
-        self.at = np.zeros(len(self.references))
+        steady = re.search(r"double steady\[(\d+)\]", files["variables.h"])
+        self.at = np.zeros(len(self.references) + (int(steady[1]) if steady else 0))
         for name in (*model.parameters, *model.states, *model.inputs):
             self.at[self.references[name]] = start_value(name, model)
         self._call("model_parameters")
@@ -107,6 +109,7 @@ class CompiledModel:
     def relations(self) -> np.ndarray:
         """Residuals of the relations at the present values; a relation may depend on the truth of others."""
         z = np.zeros(max(1, len(self.model.relations)))
+        self._call("model_steady")
         for _ in range(z.size + 1):
             self._call("model_relations", z > 0, z)
         return z

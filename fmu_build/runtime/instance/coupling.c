@@ -51,7 +51,7 @@ static void put(State *s, int i, double value)
 {
     if (*across(s, i) != value) {
         *across(s, i) = value;
-        s->settled = s->current = false;
+        settle_later(s, coupling_info.across[i].input);
     }
 }
 

@@ -148,8 +148,7 @@ void instance_set(Instance *instance, unsigned reference, double value)
     coupling_values_note(s, reference);
     if (s->v.at[reference] != acting) { /* an input held constant must leave no trace in the integration */
         s->v.at[reference] = acting;
-        s->calculated = s->calculated && info->kind == INPUT;
-        s->settled = s->current = false;
+        settle_later(s, reference);
         discrete_expect(s);
         disturb(s);
     }

@@ -42,6 +42,13 @@ static bool settle_start(State *s, Message *why)
     return false;
 }
 
+void settle_later(State *s, unsigned reference)
+{
+    const bool is_input = variable_info[reference].kind == INPUT;
+    s->calculated = s->calculated && is_input && !moves_steady[reference - FIRST_INPUT];
+    s->settled = s->current = false;
+}
+
 bool settle_truths(Instance *instance, Message *why)
 {
     State *s = &instance->state;
@@ -52,6 +59,7 @@ bool settle_truths(Instance *instance, Message *why)
     }
     if (!s->calculated) {
         model_parameters(&s->v);
+        model_steady(&s->v);
         s->calculated = true;
     }
     if (truths_follow(s->phase)) {

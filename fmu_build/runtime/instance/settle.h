@@ -4,6 +4,9 @@
 
 #include "state.h"
 
+/* A parameter, an input or a start value has been changed: what depends on it is to follow. */
+void settle_later(State *s, unsigned reference);
+
 /* Parameters, truths and the start values that depend on them. False: why they do not settle. */
 bool settle_truths(Instance *instance, Message *why);
 

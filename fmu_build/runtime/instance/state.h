@@ -96,7 +96,7 @@ typedef struct {
 typedef struct {
     Use use;
     Phase phase;
-    bool calculated; /* calculated parameters follow from those that have been set */
+    bool calculated; /* calculated parameters and what is steady follow from what has been set */
     bool settled;    /* parameters, start values and holds follow from what has been set */
     bool current;    /* and so do all of v */
     double tolerance;

@@ -39,8 +39,13 @@ double ramp_limited(int input, double value)
 
 void ramp_apply(const Ramp *ramp, Variables *v)
 {
+    bool moves = false;
     for (int i = 0; i < N_INPUTS && ramp->moves; i++) {
         v->at[FIRST_INPUT + i] = ramp_limited(i, ramp->from[i] + ramp->slope[i] * (v->time - ramp->start));
+        moves = moves || (moves_steady[i] && ramp->slope[i] != 0.0);
+    }
+    if (moves) {
+        model_steady(v);
     }
 }
 

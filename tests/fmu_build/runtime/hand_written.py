@@ -115,6 +115,10 @@ void model_parameters(Variables *v) {{
     (void)v;
     {self.parameter_equations}
 }}
+void model_steady(Variables *v) {{
+    (void)v;
+}}
+const bool moves_steady[AT_LEAST_ONE(N_INPUTS)] = {{false}};
 void model_start(Variables *v, const bool holds[]) {{
     (void)v;
     (void)holds;

@@ -1,0 +1,54 @@
+"""What is computed where parameters and inputs are set, and not again wherever the states are: model_steady."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import sympy
+
+from ..ir.dependencies import reaching
+from ..ir.equations import Assignment, Block
+from ..ir.models import JacobianModel, SortedModel
+from ..ir.symbols import symbol
+from .text import Printer, assignment_lines
+
+
+class Early:
+    """The part of derivatives, outputs, relations and Jacobian that takes long and depends on no state.
+
+    ``printer`` is the one for them: it takes that part from where it is kept. The operations stay the same, and so do
+    the bits.
+    """
+
+    def __init__(self, model: SortedModel, jacobian: JacobianModel, plain: Printer) -> None:
+        self._parts: dict[sympy.Expr, int] = {}
+        self._model = model
+        self.printer = Printer(plain.names, plain.locals, plain.steady, plain.loops, self._parts)
+        assignments = [a for a in (*model.assignments, *jacobian.assignments) if isinstance(a, Assignment)]
+        slow = {a.target for a in assignments if a.target in plain.steady and self.printer.is_early(a.expression)}
+        moving = (a.expression for a in assignments if a.target not in slow)
+        for expression in (*moving, *jacobian.entries.values(), *jacobian.time_entries.values()):
+            self.printer.text(expression)
+        self._used = slow.union(s.name for part in self._parts for s in part.free_symbols)
+        self._blocks = reaching({symbol(name) for name in self._used}, model.assignments)
+        self._targets = {name for block in self._blocks for name in block.targets}
+
+    @property
+    def size(self) -> int:
+        """How many numbers are kept beside variables."""
+        return len(self._parts)
+
+    def others(self, blocks: Iterable[Block]) -> list[Block]:
+        """Those that are left to compute."""
+        return [block for block in blocks if not self._targets.issuperset(block.targets)]
+
+    def table(self) -> str:
+        """Whether it depends on an input."""
+        sources = self._used.union(*(self._model.sources.get(name, frozenset()) for name in self._used))
+        truths = ", ".join(str(name in sources).lower() for name in self._model.inputs) or "false"
+        return f"const bool moves_steady[AT_LEAST_ONE(N_INPUTS)] = {{{truths}}};\n"
+
+    def lines(self, plain: Printer) -> list[str]:
+        """The statements of model_steady."""
+        parts = [f"v->steady[{place}] = {plain.text(part)};" for part, place in self._parts.items()]
+        return assignment_lines(self._blocks, plain) + parts
