@@ -10,7 +10,7 @@ from ..ir.dependencies import reaching
 from ..ir.equations import Assignment, Block
 from ..ir.models import JacobianModel, SortedModel
 from ..ir.symbols import symbol
-from .text import Printer, assignment_lines
+from .text import Printer, assignment_lines, function
 
 
 class Early:
@@ -42,13 +42,16 @@ class Early:
         """Those that are left to compute."""
         return [block for block in blocks if not self._targets.issuperset(block.targets)]
 
-    def table(self) -> str:
-        """Whether it depends on an input."""
+    def text(self, plain: Printer) -> str:
+        """model_steady, and whether it depends on an input."""
         sources = self._used.union(*(self._model.sources.get(name, frozenset()) for name in self._used))
         truths = ", ".join(str(name in sources).lower() for name in self._model.inputs) or "false"
-        return f"const bool moves_steady[AT_LEAST_ONE(N_INPUTS)] = {{{truths}}};\n"
-
-    def lines(self, plain: Printer) -> list[str]:
-        """The statements of model_steady."""
         parts = [f"v->steady[{place}] = {plain.text(part)};" for part, place in self._parts.items()]
-        return assignment_lines(self._blocks, plain) + parts
+        lines = assignment_lines(self._blocks, plain) + parts
+        return "\n".join(
+            [
+                f"const bool moves_steady[AT_LEAST_ONE(N_INPUTS)] = {{{truths}}};",
+                "",
+                function("model_steady(Variables *v)", lines),
+            ]
+        )

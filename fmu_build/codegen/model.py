@@ -112,8 +112,7 @@ def _model(model: SortedModel, jacobian: JacobianModel, printer: Printer, early:
     sections = [
         declare_loops(model, printer.text, lambda assignments: assignment_lines(assignments, printer)),
         function("model_parameters(Variables *v)", assignment_lines(model.parameter_assignments, printer)),
-        early.table(),
-        function("model_steady(Variables *v)", early.lines(printer)),
+        early.text(printer),
         function("model_start(Variables *v, const bool holds[])", assignment_lines(model.start_assignments, printer)),
         function("model_derivatives(Variables *v, const bool holds[])", derivatives),
         function("model_outputs(Variables *v, const bool holds[])", outputs),
