@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "discrete.h"
+#include "error.h"
 #include "log.h"
 #include "validation.h"
 
@@ -139,7 +140,7 @@ static bool explain_number(const Instance *instance, double start, Message *why)
         discrete_explain_times(s, why);
     } else {
         message_append(why, ": the error of %s allows no longer ones; a larger tolerance does",
-                       variable_info[FIRST_STATE + integrator_worst_state(&instance->rodas, s->tolerance)].name);
+                       variable_info[FIRST_STATE + error_worst_state(&instance->rodas, s->tolerance)].name);
     }
     return false;
 }

@@ -195,7 +195,7 @@ bool discrete_event(Instance *instance, Message *why)
         fine = iterate(instance, &any, why);
     }
     if (any) {
-        integrator_discontinuity(&s->integrator);
+        integrator_forget(&s->integrator);
     }
     s->discrete.pending = false;
     s->settled = true;

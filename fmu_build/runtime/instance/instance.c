@@ -48,10 +48,14 @@ void instance_reset(Instance *instance)
 }
 
 /* What has been set makes a difference: the integrator cannot go on as before. */
-static void disturb(State *s)
+static void disturb(State *s, const VariableInfo *info)
 {
     s->calm = s->course.open = false;
-    integrator_discontinuity(&s->integrator);
+    if (info->kind == INPUT && info->type == REAL) {
+        integrator_discontinuity(&s->integrator);
+    } else {
+        integrator_forget(&s->integrator);
+    }
 }
 
 Status instance_setup(Instance *instance, const double *tolerance, double start, const double *stop)
@@ -150,6 +154,6 @@ void instance_set(Instance *instance, unsigned reference, double value)
         s->v.at[reference] = acting;
         settle_later(s, reference);
         discrete_expect(s);
-        disturb(s);
+        disturb(s, info);
     }
 }

@@ -61,6 +61,7 @@ static const Field double_fields[] = {
     FIELD(integrator.left_surface),
     FIELD(integrator.behind),
     FIELD(integrator.brief),
+    FIELD(integrator.matrix), /* of doubles alone */
 #if HAS_EVENTS
     FIELD(discrete.ticks),
 #endif

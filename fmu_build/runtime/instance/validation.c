@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "error.h"
 #include "event_time.h"
 #include "finite.h"
 #include "loops.h"
@@ -184,7 +185,7 @@ bool valid_states(const Point *p, double tolerance, Message *why)
     for (int i = 0; i < N_STATES; i++) {
         const VariableInfo *info = &variable_info[FIRST_STATE + i];
         const double value = p->state[i];
-        const double slack = integrator_allowed_error(i, value, tolerance);
+        const double slack = error_allowed(i, value, tolerance);
         const bool low = value < info->min - slack;
         if (low || value > info->max + slack) {
             message_write(why, "%s = %s has %s of %s at t = %s", info->name, quantity(value, info->unit).text,

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "gradient.h"
 #include "grk4t.h"
 #include "lu.h"
 
@@ -21,10 +22,11 @@ static int brief_derivative(const Rodas *r, int stage, Variables *v, const bool 
 }
 
 /* u of a stage, from f there. */
-static void brief_solve(Rodas *r, int stage, const double f[], double right[])
+static void brief_solve(Rodas *r, const BriefMatrix *matrix, int stage, const double f[], double right[])
 {
     const double per_length = 1.0 / r->path.length;
     const double weight = GRK4T_D[stage] * r->path.length;
+    const double *by_time = r->ramp->moves ? r->time_derivative : matrix->time_derivative;
     Vector sum = {0.0};
     for (int j = 0; j < stage; j++) {
         for (int i = 0; i < N_STATES; i++) {
@@ -32,9 +34,9 @@ static void brief_solve(Rodas *r, int stage, const double f[], double right[])
         }
     }
     for (int i = 0; i < N_STATES; i++) {
-        right[i] = f[i] + sum[i] * per_length + weight * r->time_derivative[i];
+        right[i] = f[i] + sum[i] * per_length + weight * by_time[i];
     }
-    lu_solve(r->factors, right, r->u[stage]);
+    lu_solve(matrix->factors, right, r->u[stage]);
 }
 
 /* The end and its error; what the solution of the first system has lost is part of it. */
@@ -54,26 +56,36 @@ static void brief_finish(Rodas *r, const double lost[])
     }
 }
 
-int brief_try(Rodas *r, double length, Variables *v, const bool holds[])
+bool brief_factorize(BriefMatrix *matrix, const Rodas *r, double length)
+{
+    const bool is_regular = lu_factorize(r->jacobian, 1.0 / (GRK4T_GAMMA * length), matrix->factors);
+    matrix->length = is_regular ? length : 0.0;
+    matrix->time = r->path.time;
+    memcpy(matrix->time_derivative, r->time_derivative, sizeof matrix->time_derivative);
+    return is_regular;
+}
+
+int brief_try(Rodas *r, const BriefMatrix *matrix, double length, bool is_new, Variables *v, const bool holds[])
 {
     Vector f;
     Vector right;
-    Vector lost;
-    const double shift = 1.0 / (GRK4T_GAMMA * length);
+    Vector lost = {0.0}; /* by the solution of the first system; with an earlier matrix not known */
     r->path.length = length;
-    if (!lu_factorize(r->jacobian, shift, r->factors)) {
-        return 0;
+    if (!is_new && r->ramp->moves) {
+        gradient_by_time(r->ramp, v, holds, r->time_derivative);
     }
-    brief_solve(r, 0, r->derivative, right);
-    lu_error(r->jacobian, shift, r->factors, right, r->u[0], lost);
+    brief_solve(r, matrix, 0, r->derivative, right);
+    if (is_new) {
+        lu_error(r->jacobian, 1.0 / (GRK4T_GAMMA * length), matrix->factors, right, r->u[0], lost);
+    }
     for (int stage = 1; stage < GRK4T_ARGUMENTS; stage++) {
         const int bad = brief_derivative(r, stage, v, holds, f);
         if (bad != FINITE) {
             return bad;
         }
-        brief_solve(r, stage, f, right);
+        brief_solve(r, matrix, stage, f, right);
     }
-    brief_solve(r, GRK4T_STAGES - 1, f, right);
+    brief_solve(r, matrix, GRK4T_STAGES - 1, f, right);
     brief_finish(r, lost);
     return first_not_finite(r->path.end, N_STATES);
 }

@@ -8,8 +8,7 @@ static const double BESIDE = 6e-6;
 
 typedef double Slopes[AT_LEAST_ONE(N_STATES)];
 
-/* With inputs that move, the derivatives change in time also through them. */
-static void by_moving_inputs(const Ramp *ramp, const Variables *v, const bool holds[], double time_derivative[])
+void gradient_by_time(const Ramp *ramp, const Variables *v, const bool holds[], double time_derivative[])
 {
     Variables d = {.at = {0.0}};
     d.time = 1.0;
@@ -78,7 +77,7 @@ int gradient(const Ramp *ramp, Variables *v, const bool holds[], const double de
 {
     model_jacobian(v, holds, jacobian, time_derivative);
     if (ramp->moves) {
-        by_moving_inputs(ramp, v, holds, time_derivative);
+        gradient_by_time(ramp, v, holds, time_derivative);
     }
     if (first_bad(jacobian, time_derivative) == FINITE) {
         return FINITE;

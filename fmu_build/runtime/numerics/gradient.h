@@ -13,4 +13,7 @@
 int gradient(const Ramp *ramp, Variables *v, const bool holds[], const double derivative[], double jacobian[],
              double time_derivative[]);
 
+/* The derivatives by time alone, where inputs move along the ramp: the derivatives change through them too. */
+void gradient_by_time(const Ramp *ramp, const Variables *v, const bool holds[], double time_derivative[]);
+
 #endif

@@ -4,8 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "brief.h"
+#include "brief_steps.h"
+#include "error.h"
 #include "events.h"
+#include "gradient.h"
 #include "loops.h"
 
 /* The error estimate, of the embedded solution of order 4, goes with the fifth power of the length. */
@@ -33,18 +35,6 @@ static const double NEAR_END = 0.9;
 static const double BEHIND_EVENT = 1.0 + 1.0 / 32.0;
 enum { MAX_REPEATS = 5 };
 
-/* Where inputs change at every communication point, steps end there, short of the length that the control would choose.
- * Behind the first few they are made by a method that takes half of the work. Over that length the errors estimated may
- * add up to so many allowed ones: they are those of the embedded solution, and the one that goes on is much better.
- * Where one has been more, such steps are tried again when they may be a little longer each. */
-enum { FEW_CUTS = 2 };
-static const double BRIEF_ERROR = 3.0;
-static const double BRIEF_ORDER = 3.0; /* of the error over the step's share of that length */
-static const double BRIEF_GROWTH = 1.02;
-/* Up to this share of the length switching points are looked for at the end alone; Rodas5P's steps have four samples.
- */
-static const double BRIEF_SAMPLE = 0.25;
-
 void integrator_discontinuity(Integrator *m)
 {
     m->error_constant = 0.0;
@@ -54,28 +44,10 @@ void integrator_discontinuity(Integrator *m)
 
 void integrator_go_free(Integrator *m) { m->cuts = 0; }
 
-double integrator_allowed_error(int state, double value, double tolerance)
+void integrator_forget(Integrator *m)
 {
-    return tolerance * (variable_info[FIRST_STATE + state].nominal + fabs(value));
-}
-
-/* Of two numbers; fmax, which thinks of NaN, is a call. */
-static double larger(double a, double b) { return a > b ? a : b; }
-
-/* The error of a state relative to what is allowed. */
-static double relative_error(const Rodas *r, int state, double tolerance)
-{
-    const double value = larger(fabs(r->path.state[state]), fabs(r->path.end[state]));
-    return fabs(r->error[state]) / integrator_allowed_error(state, value, tolerance);
-}
-
-static double error_norm(const Rodas *r, double tolerance)
-{
-    double norm = 0.0;
-    for (int i = 0; i < N_STATES; i++) {
-        norm = larger(relative_error(r, i, tolerance), norm);
-    }
-    return norm;
+    integrator_discontinuity(m);
+    m->matrix.length = 0.0;
 }
 
 /* Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section II.4, algorithm 4.14; the second
@@ -91,7 +63,7 @@ static double first_length(const Rodas *r, double tolerance)
     double d1 = 0.0;
     double d2 = 0.0;
     for (int i = 0; i < N_STATES; i++) {
-        const double allowed = integrator_allowed_error(i, r->path.state[i], tolerance);
+        const double allowed = error_allowed(i, r->path.state[i], tolerance);
         d0 = fmax(d0, fabs(r->path.state[i]) / allowed);
         d1 = fmax(d1, fabs(r->derivative[i]) / allowed);
         d2 = fmax(d2, fabs(second[i]) / allowed);
@@ -152,35 +124,13 @@ static bool explain_start(const Rodas *r, const Variables *v, int state, Message
     return false;
 }
 
-int integrator_worst_state(const Rodas *r, double tolerance)
-{
-    int worst = 0;
-    for (int i = 1; i < N_STATES; i++) {
-        worst = relative_error(r, i, tolerance) > relative_error(r, worst, tolerance) ? i : worst;
-    }
-    return worst;
-}
-
-/* The state that would leave what is allowed first, by its derivative at the start. */
-static int fastest_state(const Rodas *r, double tolerance)
-{
-    int fastest = 0;
-    double most = 0.0;
-    for (int i = 0; i < N_STATES; i++) {
-        const double speed = fabs(r->derivative[i]) / integrator_allowed_error(i, r->path.state[i], tolerance);
-        fastest = speed > most ? i : fastest;
-        most = larger(speed, most);
-    }
-    return fastest;
-}
-
 /* v is left where the last trial has ended. */
 static bool explain_collapse(const Rodas *r, const Variables *v, int not_finite, double tolerance, Message *why)
 {
     const bool overflown = not_finite != FINITE && (isfinite(v->at[FIRST_DERIVATIVE + not_finite]) ||
                                                     first_not_finite(&v->at[FIRST_STATE], N_STATES) != FINITE);
-    const int state = not_finite == FINITE ? integrator_worst_state(r, tolerance)
-                      : overflown          ? fastest_state(r, tolerance)
+    const int state = not_finite == FINITE ? error_worst_state(r, tolerance)
+                      : overflown          ? error_fastest_state(r, tolerance)
                                            : not_finite;
     message_write(why, "no step can be made from t = %s, however small: %s %s%s", quantity(r->path.time, "s").text,
                   not_finite == FINITE ? "the largest error is that of"
@@ -215,12 +165,12 @@ static bool accept(Integrator *m, Rodas *r, Variables *v, const bool holds[], do
     }
 }
 
-static void arrive_at_end(Integrator *m, const Rodas *r, const bool holds[], double target, double remaining,
-                          Point *arrival)
+static void arrive_at_end(Integrator *m, const Rodas *r, const bool holds[], double target, Point *arrival)
 {
     m->counters.steps++;
-    arrival->time =
-        r->path.length >= remaining ? target : r->path.time + r->path.length; /* t + (target - t) may not be target */
+    arrival->time = r->path.length >= target - r->path.time
+                        ? target
+                        : r->path.time + r->path.length; /* t + (target - t) may not be target */
     memcpy(arrival->state, r->path.end, sizeof arrival->state);
     memcpy(arrival->holds, holds, sizeof arrival->holds);
     arrival->event = false;
@@ -231,7 +181,7 @@ static bool arrive_at_event(Integrator *m, const Rodas *r, Variables *v, const E
                             Point *arrival, Message *why)
 {
     m->counters.events++;
-    integrator_discontinuity(m);
+    integrator_forget(m);
     m->behind = 0.0;
     memcpy(arrival->holds, event->truths, sizeof arrival->holds);
     arrival->event = true;
@@ -250,20 +200,17 @@ static bool arrive_at_event(Integrator *m, const Rodas *r, Variables *v, const E
     return events_settle(v, arrival->holds, why);
 }
 
-static bool start(Integrator *m, Rodas *r, Variables *v, const bool holds[], const Ramp *ramp, double tolerance,
-                  Message *why)
+/* The slopes at the start, and what they tell of the length. */
+static bool start(Integrator *m, Rodas *r, Variables *v, const bool holds[], double tolerance, Message *why)
 {
-    m->counters.evaluations++;
     m->counters.jacobians++;
-    const int not_finite = rodas_start(r, v, holds, ramp);
+    const int not_finite = gradient(r->ramp, v, holds, r->derivative, r->jacobian, r->time_derivative);
     if (not_finite != FINITE) {
         return explain_start(r, v, not_finite, why);
     }
     if (m->length <= 0.0) {
         m->length = first_length(r, tolerance);
-    } else if (m->restart && m->behind > 0.0) {
-        m->length = fmin(m->length, m->behind); /* what was learned behind the last jump of an input serves again */
-    } else if (m->restart) {
+    } else if (m->restart && m->behind <= 0.0) {
         m->length = fmin(m->length, CAUTION * first_length(r, tolerance));
     }
     return true;
@@ -274,56 +221,14 @@ static void count_cuts(Integrator *m, double length, double remaining)
     if (remaining > MAX_GROWTH * length) {
         m->cuts = 0;
     } else if (remaining <= length && length < m->length) {
-        m->cuts = m->cuts < FEW_CUTS ? m->cuts + 1 : FEW_CUTS;
+        m->cuts = m->cuts < BRIEF_CUTS ? m->cuts + 1 : BRIEF_CUTS;
     }
 }
 
-/* Whether the brief step that has just been tried passes a switching point. */
-static bool passes_event(const Integrator *m, Rodas *r, Variables *v, const bool holds[])
+/* A step that is not brief. */
+static bool step(Integrator *m, Rodas *r, Variables *v, const bool holds[], double target, double tolerance,
+                 Point *arrival, Message *why)
 {
-    Event event;
-    if (N_RELATIONS == 0) {
-        return false;
-    }
-    if (HAS_EVENTS || r->path.length > BRIEF_SAMPLE * m->length) {
-        brief_bend(r);
-        return events_find(r, v, holds, false, &event);
-    }
-    v->time = r->path.time + r->path.length;
-    ramp_apply(r->ramp, v);
-    memcpy(&v->at[FIRST_STATE], r->path.end, N_STATES * sizeof(double));
-    return events_have_changed(v, holds);
-}
-
-/* A step of this length by the brief method. False: it will not do, or there is an event. Not inlined: the other steps,
- * which are most where inputs are constant, would take 2 % longer. */
-NOT_INLINED static bool step_briefly(Integrator *m, Rodas *r, Variables *v, const bool holds[], double length,
-                                     double tolerance)
-{
-    m->brief = m->brief < m->length ? BRIEF_GROWTH * m->brief : 0.0;
-    if (m->cuts < FEW_CUTS || length > m->length || (m->brief > 0.0 && length > m->brief)) {
-        return false;
-    }
-    m->counters.evaluations += BRIEF_EVALUATIONS;
-    const int not_finite = brief_try(r, length, v, holds);
-    const double weight = fmax(1.0, m->length / (BRIEF_ERROR * length));
-    const double error = not_finite == FINITE ? weight * error_norm(r, tolerance) : (double)INFINITY;
-    if (!(error <= 1.0)) {
-        m->counters.rejected++;
-        m->brief = length * fmax(MAX_SHRINK, SAFETY * pow(error, -1.0 / BRIEF_ORDER));
-        return false;
-    }
-    const bool passes = passes_event(m, r, v, holds);
-    m->counters.repeated += passes;
-    return !passes;
-}
-
-bool integrator_step(Integrator *m, Rodas *r, Variables *v, const bool holds[], const Ramp *ramp, double target,
-                     double tolerance, Point *arrival, Message *why)
-{
-    if (!start(m, r, v, holds, ramp, tolerance, why)) {
-        return false;
-    }
     const double remaining = target - r->path.time;
     const bool leaving = !(m->has_left_surface && m->left_surface == r->path.time);
     double length = fit(m->length, remaining);
@@ -332,12 +237,6 @@ bool integrator_step(Integrator *m, Rodas *r, Variables *v, const bool holds[], 
     bool rejected = false;
     bool found = false;
     Event event;
-    const bool restart = m->restart;
-    m->restart = false;
-    if (step_briefly(m, r, v, holds, remaining, tolerance)) {
-        arrive_at_end(m, r, holds, target, remaining, arrival);
-        return true;
-    }
     for (int repeat = 0;; repeat++) {
         if (!accept(m, r, v, holds, &length, tolerance, &rejected, shortest, &error, why)) {
             return false;
@@ -354,10 +253,38 @@ bool integrator_step(Integrator *m, Rodas *r, Variables *v, const bool holds[], 
     }
     count_cuts(m, length, remaining);
     learn(m, length, error, rejected);
-    m->behind = restart ? m->length : m->behind;
+    m->behind = m->restart ? m->length : m->behind;
+    m->restart = false;
     if (found) {
         return arrive_at_event(m, r, v, &event, target, arrival, why);
     }
-    arrive_at_end(m, r, holds, target, remaining, arrival);
+    arrive_at_end(m, r, holds, target, arrival);
+    return true;
+}
+
+bool integrator_step(Integrator *m, Rodas *r, Variables *v, const bool holds[], const Ramp *ramp, double target,
+                     double tolerance, Point *arrival, Message *why)
+{
+    m->counters.evaluations++;
+    const int not_finite = rodas_start(r, v, holds, ramp);
+    if (not_finite != FINITE) {
+        return explain_start(r, v, not_finite, why);
+    }
+    const double remaining = target - r->path.time;
+    if (m->restart && m->behind > 0.0) {
+        m->length = fmin(m->length, m->behind); /* what was learned behind the last jump of an input serves again */
+    }
+    bool is_brief = brief_steps_again(m, r, v, holds, remaining, tolerance);
+    if (!is_brief) {
+        if (!start(m, r, v, holds, tolerance, why)) {
+            return false;
+        }
+        is_brief = brief_steps_afresh(m, r, v, holds, remaining, tolerance);
+    }
+    if (!is_brief) {
+        return step(m, r, v, holds, target, tolerance, arrival, why);
+    }
+    m->restart = false;
+    arrive_at_end(m, r, holds, target, arrival);
     return true;
 }

@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "brief.h"
 #include "message.h"
 #include "model.h"
 #include "rodas.h"
@@ -27,6 +28,7 @@ typedef struct {
     double behind; /* the length chosen behind the last discontinuity, if that was no event; 0: not known */
     int cuts;      /* so many steps have been cut to end at their target, with none between that was far from one */
     double brief;  /* up to this length the brief method may do; 0: nothing has been seen against it */
+    BriefMatrix matrix;
     Counters counters;
 } Integrator;
 
@@ -38,8 +40,11 @@ typedef struct {
     bool event; /* some truths have changed; time may be that of the start */
 } Point;
 
-/* Something has been changed at once (an input, a parameter): what was learned about the error may not hold. */
+/* An input has been changed at once: what was learned about the error may not hold. */
 void integrator_discontinuity(Integrator *m);
+
+/* So has something on which the Jacobian may depend in any way (a parameter; an event). */
+void integrator_forget(Integrator *m);
 
 /* One accepted step from the point in v, at most to target, at most to the next event; the ramp moves the inputs.
  * False: no step can be made. v serves as working space, and is left somewhere in the step: rodas_back(r, v) leads back
@@ -49,11 +54,5 @@ bool integrator_step(Integrator *m, Rodas *r, Variables *v, const bool holds[], 
 
 /* The next step may be longer than what is asked for, so that states on its way will be: none is to be brief. */
 void integrator_go_free(Integrator *m);
-
-/* The state whose error, relative to what is allowed, was the largest in the last trial; 0 if there are none. */
-int integrator_worst_state(const Rodas *r, double tolerance);
-
-/* The error of a state's value that the tolerance allows. */
-double integrator_allowed_error(int state, double value, double tolerance);
 
 #endif

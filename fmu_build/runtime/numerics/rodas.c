@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "gradient.h"
 #include "lu.h"
 
 /* The derivatives, which the model has just stored one by one. They are loaded one by one as well (volatile): compilers
@@ -28,8 +27,7 @@ int rodas_start(Rodas *r, Variables *v, const bool holds[], const Ramp *ramp)
     r->ramp = ramp;
     r->path.time = v->time;
     memcpy(r->path.state, &v->at[FIRST_STATE], N_STATES * sizeof(double));
-    const int bad = rodas_derivative(v, holds, r->derivative);
-    return bad != FINITE ? bad : gradient(ramp, v, holds, r->derivative, r->jacobian, r->time_derivative);
+    return rodas_derivative(v, holds, r->derivative);
 }
 
 void rodas_back(const Rodas *r, Variables *v)

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "brief.h"
+#include "gradient.h"
 #include "grk4t.h"
 #include "instance.h"
 
@@ -18,7 +19,8 @@ PROBE void probe_state(const void *component, void *state);
 PROBE void probe_coefficients(double *gamma, double a[56], double c[56], double node[8], double d[8], double h[24]);
 PROBE void probe_brief_coefficients(double *gamma, double a[6], double c[12], double weight[4], double error[4],
                                     double node[3], double d[4]);
-PROBE void probe_brief_steps(double start, double end, int steps, double x[], double fraction, double dense[]);
+PROBE void probe_brief_steps(double start, double end, int steps, int with_one_matrix, double x[], double fraction,
+                             double dense[]);
 PROBE int probe_first_not_finite(const double a[], int n);
 PROBE void probe_fixed_steps(double start, double end, int steps, double x[], double fraction, double dense[],
                              double embedded[]);
@@ -68,6 +70,18 @@ void probe_brief_coefficients(double *gamma, double a[6], double c[12], double w
 
 typedef int Try(Rodas *r, double length, Variables *v, const bool holds[]);
 
+static BriefMatrix matrix;
+static int most_steps; /* with one matrix */
+
+static int brief_step(Rodas *r, double length, Variables *v, const bool holds[])
+{
+    const bool is_new = !(r->path.time - matrix.time < (most_steps - 0.5) * length);
+    if (is_new) {
+        (void)brief_factorize(&matrix, r, length);
+    }
+    return brief_try(r, &matrix, length, is_new, v, holds);
+}
+
 static void fixed_steps(Try *try, Rodas *r, double start, double end, int steps)
 {
     Variables v;
@@ -79,6 +93,7 @@ static void fixed_steps(Try *try, Rodas *r, double start, double end, int steps)
     for (int step = 0; step < steps; step++) {
         v.time = start + (end - start) * step / steps;
         (void)rodas_start(r, &v, holds, &ramp);
+        (void)gradient(&ramp, &v, holds, r->derivative, r->jacobian, r->time_derivative);
         (void)try(r, (end - start) / steps, &v, holds);
         memcpy(&v.at[FIRST_STATE], r->path.end, N_STATES * sizeof(double));
     }
@@ -98,10 +113,14 @@ void probe_fixed_steps(double start, double end, int steps, double x[], double f
     }
 }
 
-void probe_brief_steps(double start, double end, int steps, double x[], double fraction, double dense[])
+/* The same, with a new matrix every few steps. */
+void probe_brief_steps(double start, double end, int steps, int with_one_matrix, double x[], double fraction,
+                       double dense[])
 {
     Rodas r;
-    fixed_steps(brief_try, &r, start, end, steps);
+    matrix.time = -(double)INFINITY;
+    most_steps = with_one_matrix;
+    fixed_steps(brief_step, &r, start, end, steps);
     brief_bend(&r);
     rodas_dense(&r.path, fraction, dense);
     memcpy(x, r.path.end, N_STATES * sizeof(double));

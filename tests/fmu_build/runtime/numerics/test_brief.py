@@ -57,17 +57,35 @@ def test_stable_in_a_wedge(coefficients: Coefficients) -> None:
     assert abs(coefficients.amplification(coefficients.b, -1e9)) < 0.5
 
 
-def test_observed_order(library: Callable[[Model], Library]) -> None:
+def observed(library: Library, with_one_matrix: int) -> tuple[np.ndarray, np.ndarray]:
+    """The orders at the end and inside of the last step, the least of three of each."""
     steps = np.array([8, 16, 32, 64])
     end, inside = [], []
     for n in steps:
         x, dense = ((ct.c_double * 2)() for _ in range(2))
-        library(SMOOTH).dll.probe_brief_steps(
-            ct.c_double(0.0), ct.c_double(1.5), ct.c_int(n), x, ct.c_double(0.6), dense
+        library.dll.probe_brief_steps(
+            ct.c_double(0.0), ct.c_double(1.5), ct.c_int(n), ct.c_int(with_one_matrix), x, ct.c_double(0.6), dense
         )
         end.append(np.abs(np.array(x) - smooth(1.5)).max())
         inside.append(np.abs(np.array(dense) - smooth(1.5 - 0.4 * 1.5 / n)).max())
     orders, dense_orders = (np.log2(np.array(errors[:-1]) / errors[1:]) for errors in (end, inside))
     print("orders:", orders, "dense:", dense_orders)
+    return orders, dense_orders
+
+
+def test_observed_order(library: Callable[[Model], Library]) -> None:
+    orders, dense_orders = observed(library(SMOOTH), with_one_matrix=1)
     assert 3.7 < orders[-1] < 4.5
     assert dense_orders[-1] > 2.5  # one step's local error, of order 3, over a solution of order 4
+
+
+def test_observed_order_with_one_matrix_for_four_steps(library: Callable[[Model], Library]) -> None:
+    """Of second order is what the matrix is off by, itself of first order, times a small coefficient."""
+    orders, _ = observed(library(SMOOTH), with_one_matrix=4)
+    assert orders[-1] > 1.8
+
+
+def test_estimate_sees_what_the_matrix_is_off_by(coefficients: Coefficients) -> None:
+    """Twenty times over what is in the solution: the term of second order in the error of the matrix."""
+    sums = coefficients.gamma.sum(axis=1)
+    assert abs((coefficients.b - coefficients.embedded) @ sums) > 19.0 * abs(coefficients.b @ sums)
