@@ -29,8 +29,9 @@ class Early:
         moving = (a.expression for a in assignments if a.target not in slow)
         for expression in (*moving, *jacobian.entries.values(), *jacobian.time_entries.values()):
             self.printer.text(expression)
-        self._used = slow.union(s.name for part in self._parts for s in part.free_symbols)
-        self._blocks = reaching({symbol(name) for name in self._used}, model.assignments)
+        used = slow.union(s.name for part in self._parts for s in part.free_symbols)
+        self._blocks = reaching({symbol(name) for name in used}, model.assignments)
+        self._sources = used.union(*(model.sources.get(name, frozenset()) for name in used))
         self._targets = {name for block in self._blocks for name in block.targets}
 
     @property
@@ -42,10 +43,13 @@ class Early:
         """Those that are left to compute."""
         return [block for block in blocks if not self._targets.issuperset(block.targets)]
 
+    def depends_on(self, name: str) -> bool:
+        """Whether what is kept does, on an input."""
+        return name in self._sources
+
     def text(self, plain: Printer) -> str:
         """model_steady, and whether it depends on an input."""
-        sources = self._used.union(*(self._model.sources.get(name, frozenset()) for name in self._used))
-        truths = ", ".join(str(name in sources).lower() for name in self._model.inputs) or "false"
+        truths = ", ".join(str(self.depends_on(name)).lower() for name in self._model.inputs) or "false"
         parts = [f"v->steady[{place}] = {plain.text(part)};" for part, place in self._parts.items()]
         lines = assignment_lines(self._blocks, plain) + parts
         return "\n".join(

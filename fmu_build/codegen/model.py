@@ -26,6 +26,7 @@ from ..ir.models import (
 from ..ir.symbols import TIME
 from .early import Early
 from .events import event_sizes, print_events
+from .inputs import print_inputs
 from .loops import adjoint_statement, check_stack, declare_loops, gradient_lines, numbered, tangent_statement
 from .text import (
     LONGEST_FUNCTION,
@@ -50,7 +51,8 @@ def print_c(model: SortedModel, jacobian: JacobianModel, identifier: str, coupli
     names = identifiers(model.value_references)
     printer = Printer(names, _locals(jacobian), steady(model), numbered(model))
     early = Early(model, jacobian, printer)
-    text = _model(model, jacobian, printer, early) + _coupling(coupling, model) + print_events(model, printer)
+    text = _model(model, jacobian, printer, early) + "\n" + print_inputs(model, early)
+    text += _coupling(coupling, model) + print_events(model, printer)
     header = _header(model, identifier, names, coupling, early.size)
     return CSources({"variables.h": header, "model.c": text})
 

@@ -156,6 +156,12 @@ void model_start(Variables *v, const bool holds[]);
 /* Derivatives of the states, from time, states, inputs, parameters. */
 void model_derivatives(Variables *v, const bool holds[]);
 
+/* The same where nothing has changed since they were computed but this input, on which neither truths nor what is
+ * steady depend: moves_truths, moves_steady. */
+void model_derivatives_by(Variables *v, const bool holds[], int input);
+
+extern const bool moves_truths[AT_LEAST_ONE(N_INPUTS)];
+
 /* All variables but those that change at events alone. */
 void model_outputs(Variables *v, const bool holds[]);
 

@@ -122,6 +122,14 @@ class CompiledModel:
         self._call("model_derivatives", self.relations() > 0)
         return np.array([self[name] for name in self.model.derivatives])
 
+    def derivatives_by(self, name: str) -> np.ndarray:
+        """The same where nothing has changed since but this input."""
+        holds = self.relations() > 0
+        number = ctypes.c_int(self.model.inputs.index(name))
+        at, truths = (ctypes.c_void_p(a.ctypes.data) for a in (self.at, holds))
+        self._library.model_derivatives_by(at, truths, number)
+        return np.array([self[name] for name in self.model.derivatives])
+
     def jacobian(self) -> np.ndarray:
         count = len(self.model.states)
         jacobian, time_derivative = np.zeros((count, count)), np.full(count, np.nan)

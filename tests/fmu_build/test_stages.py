@@ -263,3 +263,29 @@ end M;"""
     model = compiled_model(text)
     model.outputs()
     assert (model["x"], model["z"]) == (2.0, 4.0)
+
+
+def test_derivatives_by_an_input_are_the_derivatives(compiled_model: Compile) -> None:
+    """To the bit; y, which none of them needs, keeps its value."""
+    text = """
+model M
+  input Real u;
+  input Real w;
+  Real x(start=0.3, fixed=true);
+  Real z(start=0.7, fixed=true);
+  Real p;
+  Real y;
+equation
+  p = sin(x) + u*x;
+  y = w + p;
+  der(x) = -x*p + z;
+  der(z) = -cos(z);
+end M;"""
+    model = compiled_model(text)
+    for u in (0.1, 2.7, -0.3):
+        model.outputs()
+        model["u"] = u
+        y = model["y"]
+        by = model.derivatives_by("u")
+        assert model["y"] == y
+        np.testing.assert_array_equal(by, model.derivatives())

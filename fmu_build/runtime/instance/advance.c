@@ -6,6 +6,7 @@
 #include "discrete.h"
 #include "error.h"
 #include "log.h"
+#include "settle.h"
 #include "validation.h"
 
 /* More steps than this between two communication points are taken for a run without end. */
@@ -57,12 +58,12 @@ void advance_follow(State *s, double time)
     ramp_apply(&s->ramp, &s->v);
 }
 
-/* One integrator step from where the instance is, at most to `limit`. */
-static bool make_step(Instance *instance, double limit, Message *why)
+/* One integrator step from where the instance is, at most to `limit`; whether the derivatives there are known. */
+static bool make_step(Instance *instance, double limit, bool derived, Message *why)
 {
     State *s = &instance->state;
     Course *course = &s->course;
-    if (!integrator_step(&s->integrator, &instance->rodas, &s->v, s->holds, &s->ramp, limit, s->tolerance,
+    if (!integrator_step(&s->integrator, &instance->rodas, &s->v, s->holds, &s->ramp, derived, limit, s->tolerance,
                          &course->arrival, why) ||
         !valid_states(&course->arrival, s->tolerance, why)) {
         rodas_back(&instance->rodas, &s->v);
@@ -74,7 +75,7 @@ static bool make_step(Instance *instance, double limit, Message *why)
 /* Begin a step. While nothing is set it may lead beyond the communication point, so that its length is up to its error
  * alone, but not beyond the next time event; the stop time is none, so that it leaves no trace. It is not worth while
  * where inputs change from step to step, nor with a coupling, whose input always does. */
-static bool set_out(Instance *instance, double target, double next, Message *why)
+static bool set_out(Instance *instance, double target, double next, bool derived, Message *why)
 {
     State *s = &instance->state;
     Course *course = &s->course;
@@ -83,14 +84,17 @@ static bool set_out(Instance *instance, double target, double next, Message *why
         integrator_go_free(&s->integrator);
     }
     /* What makes a longer step fail may never happen. */
-    if (!(may_pass && make_step(instance, next, why)) && !make_step(instance, target, why)) {
+    if (!(may_pass && make_step(instance, next, derived, why)) &&
+        !make_step(instance, target, derived && !may_pass, why)) {
         return false;
     }
     course->open = course->arrival.time > target;
     if (course->open && N_RELATIONS == 0) { /* otherwise the search for events has done so */
         rodas_bend(&instance->rodas);
     }
-    course->path = instance->rodas.path;
+    if (course->open) {
+        course->path = instance->rodas.path;
+    }
     return true;
 }
 
@@ -117,8 +121,9 @@ static bool advance(Instance *instance, double target, bool events_wait, Message
     State *s = &instance->state;
     const double next = discrete_next_time(s);
     const double end = discrete_is_due_at(target, next) ? next : target; /* exactly there, for the sake of truths */
-    s->current = false;
-    if (!s->course.open && !set_out(instance, end, next, why)) {
+    const bool derived = !s->course.open && settle_derivatives(s);
+    s->freshness = STALE;
+    if (!s->course.open && !set_out(instance, end, next, derived, why)) {
         return false;
     }
     if (s->course.open && s->course.arrival.time > end) {

@@ -29,7 +29,8 @@ Status co_simulation_set_slopes(Instance *instance, const unsigned references[],
 typedef struct {
     bool copied; /* into instance->before; otherwise back along the course, and what follows is as it was */
     double time;
-    bool after_event, calm, current, ramp_over;
+    bool after_event, calm, ramp_over;
+    Freshness freshness;
     EventDensity density;
 } Departure;
 
@@ -47,7 +48,7 @@ static Departure depart(Instance *instance, double target)
     Departure departure = {.time = s->v.time,
                            .after_event = s->after_event,
                            .calm = s->calm,
-                           .current = s->current,
+                           .freshness = s->freshness,
                            .ramp_over = s->ramp.over,
                            .density = s->density};
     if (!s->settled || !course->open || course->arrival.time <= target || s->ramp.is_set ||
@@ -69,9 +70,10 @@ static void go_back(Instance *instance, const Departure *departure)
     s->calm = departure->calm;
     s->ramp.over = departure->ramp_over;
     s->density = departure->density;
-    s->asserted = s->current = false;
+    s->asserted = false;
+    s->freshness = STALE;
     settle_outputs(s);
-    s->current = departure->current;
+    s->freshness = departure->freshness;
 }
 
 /* A step that cannot be made leaves nothing behind, so that the caller can try another one. An assertion that has

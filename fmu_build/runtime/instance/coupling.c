@@ -42,7 +42,8 @@ static void correct(Instance *instance, const double errors[], double size)
     }
     if (first_not_finite(r->path.end, N_STATES) == FINITE) {
         memcpy(&s->v.at[FIRST_STATE], r->path.end, N_STATES * sizeof(double));
-        s->settled = s->current = false;
+        s->settled = false;
+        s->freshness = STALE;
         integrator_discontinuity(&s->integrator);
     }
 }

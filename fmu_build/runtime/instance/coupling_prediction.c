@@ -39,6 +39,7 @@ static void look_ahead(Instance *instance, double size, double force, double mea
     memcpy(&instance->present, s, sizeof *s);
     instance->logs[LOG_EVENT] = false;
     memcpy(s->holds, s->next_holds, sizeof s->holds);
+    s->freshness = s->event_waits ? STALE : s->freshness;
     s->event_waits = false;
     s->ramp.over = false;
     incline_for(s, force);

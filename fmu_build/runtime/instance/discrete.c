@@ -199,7 +199,7 @@ bool discrete_event(Instance *instance, Message *why)
     }
     s->discrete.pending = false;
     s->settled = true;
-    s->current = false;
+    s->freshness = STALE;
     memcpy(s->next_holds, s->holds, sizeof s->holds);
     return fine;
 }
@@ -234,7 +234,8 @@ bool discrete_start(Instance *instance, Message *why)
     (void)take_memories(s);
     s->v.at[INITIAL] = 0.0;
     s->discrete.pending = true;
-    s->settled = s->current = false;
+    s->settled = false;
+    s->freshness = STALE;
     return true;
 }
 

@@ -68,7 +68,8 @@ Status instance_setup(Instance *instance, const double *tolerance, double start,
     s->tolerance = tolerance != NULL ? *tolerance : DEFAULT_TOLERANCE;
     s->stop = stop != NULL ? *stop : (double)INFINITY;
     s->v.time = start;
-    s->settled = s->current = false;
+    s->settled = false;
+    s->freshness = STALE;
     return STATUS_OK;
 }
 

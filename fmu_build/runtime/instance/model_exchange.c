@@ -24,12 +24,13 @@ Status model_exchange_enter_event_mode(Instance *instance)
                            */
         memcpy(s->holds, s->next_holds, sizeof s->holds);
         s->event_waits = false;
-        s->current = false;
+        s->freshness = STALE;
         if (!discrete_settle(s, false, &why)) {
             return log_error(instance, &why);
         }
     } else {
-        s->settled = s->current = false;
+        s->settled = false;
+        s->freshness = STALE;
     }
     return STATUS_OK;
 }
@@ -88,7 +89,7 @@ Status model_exchange_set_time(Instance *instance, double time)
         return log_error(instance, &why);
     }
     if (s->v.time != time) {
-        s->current = false;
+        s->freshness = STALE;
         s->settled = s->settled && s->phase == CONTINUOUS; /* in event mode truths follow */
         s->v.time = time;
     }
@@ -113,7 +114,7 @@ Status model_exchange_set_states(Instance *instance, const double states[], size
         return log_discard(instance, &why);
     }
     memcpy(&s->v.at[FIRST_STATE], states, N_STATES * sizeof(double));
-    s->current = false;
+    s->freshness = STALE;
     return STATUS_OK;
 }
 
@@ -154,7 +155,7 @@ Status model_exchange_get_derivatives(Instance *instance, double derivatives[], 
     if (!settle_truths(instance, &why)) {
         return log_error(instance, &why);
     }
-    if (!s->current) {
+    if (s->freshness != CURRENT) {
         model_derivatives(&s->v, s->holds);
     }
     return copy_out(instance, FIRST_DERIVATIVE, N_STATES, derivatives);

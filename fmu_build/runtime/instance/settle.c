@@ -45,8 +45,16 @@ static bool settle_start(State *s, Message *why)
 void settle_later(State *s, unsigned reference)
 {
     const bool is_input = variable_info[reference].kind == INPUT;
-    s->calculated = s->calculated && is_input && !moves_steady[reference - FIRST_INPUT];
-    s->settled = s->current = false;
+    const int input = is_input ? (int)reference - FIRST_INPUT : 0;
+    s->calculated = s->calculated && is_input && !moves_steady[input];
+    if (!is_input || moves_steady[input] || moves_truths[input]) {
+        s->settled = false;
+        s->freshness = STALE;
+    } else if (s->freshness != STALE) {
+        memset(s->since, 0, s->freshness == CURRENT ? sizeof s->since : 0);
+        s->since[input] = true;
+        s->freshness = STALE_BY_INPUTS;
+    }
 }
 
 bool settle_truths(Instance *instance, Message *why)
@@ -79,16 +87,26 @@ bool settle_truths(Instance *instance, Message *why)
 
 void settle_outputs(State *s)
 {
-    if (!s->current) {
+    if (s->freshness != CURRENT) {
         model_outputs(&s->v, s->holds);
         coupling_values_show(s);
-        s->current = true;
+        s->freshness = CURRENT;
     }
+}
+
+bool settle_derivatives(State *s)
+{
+    for (int i = 0; i < N_INPUTS && s->freshness == STALE_BY_INPUTS; i++) {
+        if (s->since[i]) {
+            model_derivatives_by(&s->v, s->holds, i);
+        }
+    }
+    return s->freshness != STALE;
 }
 
 bool settle_variables(Instance *instance, Message *why)
 {
-    if (!instance->state.current && !settle_truths(instance, why)) {
+    if (instance->state.freshness != CURRENT && !settle_truths(instance, why)) {
         return false;
     }
     settle_outputs(&instance->state);

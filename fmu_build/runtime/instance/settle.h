@@ -16,4 +16,7 @@ bool settle_variables(Instance *instance, Message *why);
 /* All variables, the truths being what they are. */
 void settle_outputs(State *s);
 
+/* The derivatives alone, as far as that takes less than to compute them anew: false if it does not. */
+bool settle_derivatives(State *s);
+
 #endif

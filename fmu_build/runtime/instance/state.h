@@ -33,6 +33,10 @@ typedef enum { LOG_ERROR, LOG_WARNING, LOG_EVENT, LOG_STEP, N_LOG_CATEGORIES } L
 
 typedef void LogFunction(void *receiver, LogCategory category, Status status, const char *message);
 
+/* Which variables follow from what has been set: not all; all but for inputs that have been set since, on which neither
+ * truths nor what is steady depend; all. */
+typedef enum { STALE, STALE_BY_INPUTS, CURRENT, N_FRESHNESS } Freshness;
+
 #if N_COUPLINGS > 0
 
 /* Where an exchange of a coupling begins, and its accounts until then. */
@@ -98,7 +102,8 @@ typedef struct {
     Phase phase;
     bool calculated; /* calculated parameters and what is steady follow from what has been set */
     bool settled;    /* parameters, start values and holds follow from what has been set */
-    bool current;    /* and so do all of v */
+    Freshness freshness;
+    bool since[AT_LEAST_ONE(N_INPUTS)]; /* STALE_BY_INPUTS: the inputs that have been set */
     double tolerance;
     double stop; /* INFINITY: not given */
     Variables v;

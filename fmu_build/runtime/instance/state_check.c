@@ -18,7 +18,7 @@ typedef struct {
 static const Field bool_fields[] = {
     FIELD(calculated),
     FIELD(settled),
-    FIELD(current),
+    FIELD(since),
     FIELD(holds),
     FIELD(event_waits),
     FIELD(after_event),
@@ -30,6 +30,7 @@ static const Field bool_fields[] = {
     FIELD(ramp.over),
     FIELD(integrator.has_left_surface),
     FIELD(integrator.restart),
+    FIELD(integrator.matrix.depends_on_time),
     FIELD(calm),
     FIELD(course.open),
     FIELD(course.arrival.holds),
@@ -61,7 +62,11 @@ static const Field double_fields[] = {
     FIELD(integrator.left_surface),
     FIELD(integrator.behind),
     FIELD(integrator.brief),
-    FIELD(integrator.matrix), /* of doubles alone */
+    FIELD(integrator.matrix.length),
+    FIELD(integrator.matrix.time),
+    FIELD(integrator.matrix.reach),
+    FIELD(integrator.matrix.factors),
+    FIELD(integrator.matrix.time_derivative),
 #if HAS_EVENTS
     FIELD(discrete.ticks),
 #endif
@@ -144,6 +149,9 @@ static bool check_phase(const State *s, Message *why)
     const unsigned phase = (unsigned)s->phase;
     if (use >= sizeof phases / sizeof *phases) {
         return disbelieve("use", why);
+    }
+    if ((unsigned)s->freshness >= N_FRESHNESS) {
+        return disbelieve("freshness", why);
     }
     const bool one = phase != 0 && (phase & (phase - 1)) == 0;
     return (one && (phase & (unsigned)phases[use]) != 0) || disbelieve("phase", why);

@@ -185,6 +185,9 @@ bool valid_states(const Point *p, double tolerance, Message *why)
     for (int i = 0; i < N_STATES; i++) {
         const VariableInfo *info = &variable_info[FIRST_STATE + i];
         const double value = p->state[i];
+        if (value >= info->min && value <= info->max) {
+            continue;
+        }
         const double slack = error_allowed(i, value, tolerance);
         const bool low = value < info->min - slack;
         if (low || value > info->max + slack) {

@@ -8,7 +8,7 @@
 #include "lu.h"
 
 /* f at the argument of a stage behind the first. */
-static int brief_derivative(const Rodas *r, int stage, Variables *v, const bool holds[], double f[])
+static void brief_derivative(const Rodas *r, int stage, Variables *v, const bool holds[], double f[])
 {
     double *restrict argument = &v->at[FIRST_STATE];
     const double *a = GRK4T_A[stage];
@@ -18,7 +18,7 @@ static int brief_derivative(const Rodas *r, int stage, Variables *v, const bool 
     }
     v->time = r->path.time + GRK4T_NODE[stage] * r->path.length;
     ramp_apply(r->ramp, v);
-    return rodas_derivative(v, holds, f);
+    (void)rodas_derivative(v, holds, f); /* what is not finite shows at the end */
 }
 
 /* u of a stage, from f there. */
@@ -34,7 +34,10 @@ static void brief_solve(Rodas *r, const BriefMatrix *matrix, int stage, const do
         }
     }
     for (int i = 0; i < N_STATES; i++) {
-        right[i] = f[i] + sum[i] * per_length + weight * by_time[i];
+        right[i] = f[i] + sum[i] * per_length;
+    }
+    for (int i = 0; i < N_STATES && (r->ramp->moves || matrix->depends_on_time); i++) {
+        right[i] += weight * by_time[i];
     }
     lu_solve(matrix->factors, right, r->u[stage]);
 }
@@ -61,7 +64,11 @@ bool brief_factorize(BriefMatrix *matrix, const Rodas *r, double length)
     const bool is_regular = lu_factorize(r->jacobian, 1.0 / (GRK4T_GAMMA * length), matrix->factors);
     matrix->length = is_regular ? length : 0.0;
     matrix->time = r->path.time;
-    memcpy(matrix->time_derivative, r->time_derivative, sizeof matrix->time_derivative);
+    matrix->depends_on_time = false;
+    for (int i = 0; i < N_STATES; i++) {
+        matrix->time_derivative[i] = r->time_derivative[i];
+        matrix->depends_on_time |= r->time_derivative[i] != 0.0;
+    }
     return is_regular;
 }
 
@@ -79,10 +86,7 @@ int brief_try(Rodas *r, const BriefMatrix *matrix, double length, bool is_new, V
         lu_error(r->jacobian, 1.0 / (GRK4T_GAMMA * length), matrix->factors, right, r->u[0], lost);
     }
     for (int stage = 1; stage < GRK4T_ARGUMENTS; stage++) {
-        const int bad = brief_derivative(r, stage, v, holds, f);
-        if (bad != FINITE) {
-            return bad;
-        }
+        brief_derivative(r, stage, v, holds, f);
         brief_solve(r, matrix, stage, f, right);
     }
     brief_solve(r, matrix, GRK4T_STAGES - 1, f, right);

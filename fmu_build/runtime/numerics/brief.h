@@ -13,6 +13,7 @@ typedef struct {
     double reach;  /* it serves for so many more steps, as far as is known */
     double factors[AT_LEAST_ONE(N_FACTORS)];
     Vector time_derivative;
+    bool depends_on_time; /* they are not all zero */
 } BriefMatrix;
 
 /* Of the gradient in r. False: a pivot is zero, and there is no matrix. */

@@ -46,11 +46,12 @@ void integrator_discontinuity(Integrator *m);
 /* So has something on which the Jacobian may depend in any way (a parameter; an event). */
 void integrator_forget(Integrator *m);
 
-/* One accepted step from the point in v, at most to target, at most to the next event; the ramp moves the inputs.
+/* One accepted step from the point in v, at most to target, at most to the next event; the ramp moves the inputs;
+ * the derivatives at the start may be known.
  * False: no step can be made. v serves as working space, and is left somewhere in the step: rodas_back(r, v) leads back
  * to its start. */
-bool integrator_step(Integrator *m, Rodas *r, Variables *v, const bool holds[], const Ramp *ramp, double target,
-                     double tolerance, Point *arrival, Message *why);
+bool integrator_step(Integrator *m, Rodas *r, Variables *v, const bool holds[], const Ramp *ramp, bool derived,
+                     double target, double tolerance, Point *arrival, Message *why);
 
 /* The next step may be longer than what is asked for, so that states on its way will be: none is to be brief. */
 void integrator_go_free(Integrator *m);

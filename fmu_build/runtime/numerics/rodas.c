@@ -22,12 +22,16 @@ int rodas_derivative(Variables *v, const bool holds[], double derivative[])
     return first_not_finite(derivative, N_STATES);
 }
 
-int rodas_start(Rodas *r, Variables *v, const bool holds[], const Ramp *ramp)
+int rodas_start(Rodas *r, Variables *v, const bool holds[], const Ramp *ramp, bool derived)
 {
     r->ramp = ramp;
     r->path.time = v->time;
     memcpy(r->path.state, &v->at[FIRST_STATE], N_STATES * sizeof(double));
-    return rodas_derivative(v, holds, r->derivative);
+    if (!derived) {
+        return rodas_derivative(v, holds, r->derivative);
+    }
+    take_derivatives(v, r->derivative);
+    return first_not_finite(r->derivative, N_STATES);
 }
 
 void rodas_back(const Rodas *r, Variables *v)

@@ -34,10 +34,10 @@ typedef struct {
 /* The derivatives at the point in v. Returns FINITE, or the index of the first one that is not finite. */
 int rodas_derivative(Variables *v, const bool holds[], double derivative[]);
 
-/* Fix the start of a step at the time and the states in v: evaluates the derivatives there, once for all trials of the
- * step, which need the gradient too. The ramp, which moves the inputs, has to live as long. Returns FINITE, or the
- * index of the first state whose derivative is not finite. */
-int rodas_start(Rodas *r, Variables *v, const bool holds[], const Ramp *ramp);
+/* Fix the start of a step at the time and the states in v: evaluates the derivatives there, if v does not bear them
+ * already, once for all trials of the step, which need the gradient too. The ramp, which moves the inputs, has to live
+ * as long. Returns FINITE, or the index of the first state whose derivative is not finite. */
+int rodas_start(Rodas *r, Variables *v, const bool holds[], const Ramp *ramp, bool derived);
 
 /* v back to the start of the step. */
 void rodas_back(const Rodas *r, Variables *v);

@@ -129,6 +129,11 @@ void model_derivatives(Variables *v, const bool holds[]) {{
     (void)holds;
     {self.derivatives}
 }}
+const bool moves_truths[AT_LEAST_ONE(N_INPUTS)] = {{{", ".join(["true"] * len(self.inputs)) or "true"}}};
+void model_derivatives_by(Variables *v, const bool holds[], int input) {{
+    (void)input;
+    model_derivatives(v, holds);
+}}
 void model_outputs(Variables *v, const bool holds[]) {{
     double z[AT_LEAST_ONE(N_RELATIONS)];
     model_derivatives(v, holds);

@@ -92,7 +92,7 @@ static void fixed_steps(Try *try, Rodas *r, double start, double end, int steps)
     }
     for (int step = 0; step < steps; step++) {
         v.time = start + (end - start) * step / steps;
-        (void)rodas_start(r, &v, holds, &ramp);
+        (void)rodas_start(r, &v, holds, &ramp, false);
         (void)gradient(&ramp, &v, holds, r->derivative, r->jacobian, r->time_derivative);
         (void)try(r, (end - start) / steps, &v, holds);
         memcpy(&v.at[FIRST_STATE], r->path.end, N_STATES * sizeof(double));
