@@ -28,7 +28,8 @@ const cases: Case[] = JSON.parse(readFileSync(process.env["COMPARISONS"]!, "utf8
 const SHARE = 0.01;
 
 function columns(traces: Case["traces"]): Traces {
-  return Object.fromEntries(Object.entries(traces).map(([name, values]) => [name, Float64Array.from(values)])) as Traces;
+  const found = Object.entries(traces).map(([name, values]) => [name, Float64Array.from(values)]);
+  return Object.fromEntries(found) as Traces;
 }
 
 function near(found: number, expected: number | null, allowed: number | null, what: string): void {
