@@ -12,10 +12,11 @@ const [ACROSS, UP] = [30, 20]; // cells
 const CORNERS = { x1: "x1", x2: "x2", y1: "y1", y2: "y2" };
 const DOT = { r: 1.4, fill: "white", stroke: "black", strokeWidth: 0.4 };
 const DRAWN = 5; // rows at a time
-const SHADES: Record<Metric, { label: string; domain: [number, number]; type: "linear" | "log" }> = {
-  growth: { label: "growth of the swing (1/s): above 0 it grows", domain: [-1, 1], type: "linear" },
+const SHADES: Record<Metric, { label: string; domain: [number, number]; type: "symlog" | "log" }> = {
+  growth: { label: "growth of the swing (1/s): above 0 it grows", domain: [-1, 1], type: "symlog" },
   jerk: { label: "peak jerk (m/s³)", domain: [1, 1000], type: "log" },
 };
+const AROUND_0 = 0.05; // 1/s, where small growth and small decay are told apart
 
 interface Loaded {
   module: WebAssembly.Module;
@@ -129,7 +130,7 @@ function draw(state: State, rows: (Row | undefined)[], labels: string[], width: 
     style: { fontSize: "13px", background: "none" },
     x: { label: `${labels[0]} →`, type: across.type, domain: ends(state.x), ticks: 4, tickFormat: String },
     y: { label: `↑ ${labels[1]}`, type: up.type, domain: ends(state.y), ticks: 5, tickFormat: String },
-    color: { ...SHADES[state.show], scheme: "viridis", clamp: true, reverse: true, ticks: 4, tickFormat: String },
+    color: { ...SHADES[state.show], constant: AROUND_0, scheme: "viridis", clamp: true, reverse: true, ticks: 4 },
     marks: [
       Plot.rect(shown, { ...CORNERS, fill: (cell) => Math.max(cell[state.show], least), inset: -0.25 }),
       Plot.dot(cells.filter((cell) => cell.leaves), { x: "x", y: "y", ...DOT }),
