@@ -102,7 +102,7 @@ function number(value: number): string {
 function follow(): void {
   const { state: map, texts, unknown } = linked(location.hash, Object.keys(SPANS));
   Object.assign(state, map);
-  const told = unknown.map((text) => `The page has no ${text}.`);
+  const told = unknown.slice(0, 3).map((text) => `The page has no ${text}.`);
   const refused: [name: string, text: string, message: string][] = [];
   let values = { ...PAPER.datum };
   for (const [name, text] of Object.entries(texts)) {

@@ -74,7 +74,8 @@ export function makeMap(parent: HTMLElement, unit: Loaded, taken: (values: Value
   const ask = makeCrew(unit, show);
   parent.addEventListener("click", (event) => {
     const box = picture.getBoundingClientRect();
-    const at = (axis: "x" | "y", pixels: number): number => picture.scale(axis)!.invert!(pixels);
+    const shrunk = Number(picture.getAttribute("width")) / box.width; // in a window that has become narrower
+    const at = (axis: "x" | "y", pixels: number): number => picture.scale(axis)!.invert!(pixels * shrunk);
     const across = cellAt(state.x, ACROSS, at("x", event.clientX - box.left));
     taken({ ...across, ...cellAt(state.y, UP, at("y", event.clientY - box.top)) });
   });
