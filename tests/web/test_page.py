@@ -91,6 +91,7 @@ def test_the_page_is_one_file_that_may_fetch_nothing(unit_folder: Path) -> None:
     text = (unit_folder / "index.html").read_text(encoding="utf-8")
     assert "default-src 'none'" in text
     assert not re.search(r"<(?:iframe|img)\b|<script[^>]*src=|<link[^>]*href=\"(?!data:,)|@import", text)
+    assert "2-Clause BSD License" in text and "Rich Felker" in text  # headers of FMI, libm
     for package in ("uplot", "ml-matrix", "@observablehq/plot", "d3-scale"):
         assert re.search(rf"^{re.escape(package)} \d", text, re.MULTILINE), package  # and its licence after it
 

@@ -82,6 +82,7 @@ test("figures and cases, by the list of presets", async () => {
 
 test("fifty values of a slider, and the map: how long they take", async () => {
   const page = await opened();
+  await mapped(page);
   const each = await page.evaluate(async () => {
     const slider = document.querySelector<HTMLInputElement>("#knobs input[type=range]")!;
     const begin = performance.now();
