@@ -13,7 +13,6 @@ BUILD := $(BIN)/python -m fmu_build modelica/OverrunHitch OverrunHitch.Systems
 SOURCES := $(READY) $(shell find modelica fmu_build -name '*.mo' -o -name '*.order' -o -name '*.py' -o -name '*.[ch]')
 WEB := web/node_modules/.package-lock.json
 NPM := $(shell command -v npm)
-LIVE := $(if $(NPM),$(READY_MADE)/live/index.html)
 C_FILES := $(shell find fmu_build/runtime -name "*.[ch]") tests/platforms/*.[ch] benchmarks/*.c
 
 help:  ## list the targets
@@ -26,7 +25,8 @@ report: $(READY)  ## recompute all figures and claims of the paper into one page
 	$(BIN)/hitch report
 
 docs: $(DOCS_READY)  ## make the documentation site, its examples run (build/site/index.html)
-	$(if $(NPM),-$(MAKE) --no-print-directory web,@echo "without the live page: it needs npm, which is not installed")
+	$(if $(NPM),-$(MAKE) --no-print-directory web)
+	@test -f build/live/index.html || echo "without the live page: make web makes it, where npm is and gets its packages"
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict --quiet
 
 test: $(READY)  ## run the tests, on all cores: every kind of check, long grids sampled
@@ -70,8 +70,10 @@ $(WEB): web/package-lock.json
 	cd web && npm ci --no-fund --no-audit
 	touch $@
 
-dist: $(READY) $(DIST) $(LIVE)  ## make the wheel, with the FMUs for all systems and the live page in it (dist; minutes, the first time)
-	$(if $(LIVE),,@echo "without the live page: it needs npm, which is not installed")
+dist: $(READY) $(DIST)  ## make the wheel, with the FMUs for all systems and the live page in it (dist; minutes, the first time)
+	rm -rf $(READY_MADE)/live
+	$(if $(NPM),-$(MAKE) --no-print-directory $(READY_MADE)/live/index.html)
+	@test -d $(READY_MADE)/live || echo "without the live page: make web makes it, where npm is and gets its packages"
 	$(BIN)/hatchling build -t wheel
 
 $(READY_MADE)/fmi2/%.fmu: $(SOURCES)

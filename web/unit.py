@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import json
 import zipfile
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,9 @@ import fmpy
 from fmu_build.fmu.compile import WASM
 
 LICENCES = "documentation/licenses/"
+# Of the C library that zig links into a module of WebAssembly, by their places in zig's package.
+C_LIBRARY = "lib/libc/wasi"
+C_LIBRARY_LICENCES = ("LICENSE", "LICENSE-MIT", "libc-top-half/musl/COPYRIGHT", "libc-bottom-half/cloudlibc/LICENSE")
 
 
 def describe(fmu: Path) -> dict[str, Any]:
@@ -46,6 +50,9 @@ def write(fmu: Path, folder: Path) -> None:
     with zipfile.ZipFile(fmu) as archive:
         module = archive.read(f"binaries/{WASM.fmi3_folder}/{fmu.stem}.wasm")
         licences = {Path(name).name: archive.read(name) for name in archive.namelist() if name.startswith(LICENCES)}
+    for place in C_LIBRARY_LICENCES:
+        name = f"{C_LIBRARY}/{place}".replace("/", "-")
+        licences[name] = (files("ziglang") / C_LIBRARY / place).read_bytes()
     (folder / "licenses").mkdir(parents=True, exist_ok=True)
     for name, text in licences.items():
         (folder / "licenses" / name).write_bytes(text)

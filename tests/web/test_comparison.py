@@ -16,6 +16,7 @@ from overrun_hitch.comparison.theory import compare
 from overrun_hitch.experiments.step_brake import brake, car_alone
 from overrun_hitch.fmu.opening import opened_unit
 from overrun_hitch.fmu.settings import Settings
+from overrun_hitch.measure.metrics import NEEDED, Traces, measured
 from overrun_hitch.parameters import CASES, FIGURES, Scenario
 from overrun_hitch.results import VARIABLES
 from overrun_hitch.scenarios import asked_scenario
@@ -49,6 +50,12 @@ def traces(run: xr.Dataset) -> dict[str, list[float]]:
     return {name: run[name].values.tolist() for name in ("time", *VARIABLES)}
 
 
+def as_many(run: xr.Dataset) -> Traces:
+    """One run as metrics take many."""
+    values = {name: run[name].values[None] for name in NEEDED}
+    return Traces(run["time"].values, values, np.array([run.attrs["eps"]]))
+
+
 def test_the_page_judges_as_hitch_run(run_node: NodeRunner, car_trailer_fmu: Path, tmp_path: Path) -> None:
     cases: list[dict[str, Any]] = []
     with opened_unit(car_trailer_fmu) as unit:
@@ -62,7 +69,9 @@ def test_the_page_judges_as_hitch_run(run_node: NodeRunner, car_trailer_fmu: Pat
                 for row in compare(run, alone)
             ]  # fmt: skip
             finite = [{name: None if value != value else value for name, value in row.items()} for row in rows]
-            cases.append({"values": values, "traces": traces(run), "alone": traces(alone), "rows": finite})
+            jerk = float(measured(("peak_jerk",), as_many(run))["peak_jerk"][0])
+            sides = {"traces": traces(run), "alone": traces(alone)}
+            cases.append({"values": values, **sides, "rows": finite, "jerk": jerk})
     assert {row["verdict"] for one in cases for row in one["rows"]} == {"agrees", "not judged"}
     assert not any(isinstance(v, float) and math.isinf(v) for one in cases for row in one["rows"] for v in row.values())
     file = tmp_path / "cases.json"

@@ -2,7 +2,7 @@
 import { STEP, type Traces } from "./engine.js";
 import type { Values } from "./paper.js";
 
-/** Runs at every combination of the two axes, and C_crit over the upward one where the other is C. */
+/** Runs at every combination of the two axes, and where one is C, C_crit over the other. */
 export interface Request {
   number: number;
   values: Values;
@@ -21,7 +21,7 @@ export interface Row {
   number: number;
   row: number;
   cells: Cell[];
-  critical: number | null; // N.s/m, at this row's values; null: theory has none
+  boundary: { x: number; y: number }[]; // points of C_crit that belong to the row; none where theory has none
 }
 
 const TAKEN_UP = 0.1; // s: until then the car's wheels take up the step of the brake torque

@@ -2,7 +2,7 @@
 import type { Traces } from "./engine.js";
 import { shuntingMode, wheelDecayRate, type Eigenvalue, type LinearParameters } from "./linear.js";
 import { measure, type Oscillation } from "./oscillation.js";
-import { PAPER, changed, picked, type Values } from "./paper.js";
+import { PAPER, changed, known, picked, type Values } from "./paper.js";
 import { givesFrom, linearUntil, steady } from "./steady.js";
 
 const GROWTH_ALLOWED = [0.005, 0.01] as const; // 1/s, and relative
@@ -50,13 +50,13 @@ export function compare(values: Values, traces: Traces, alone: Traces): Judged[]
 }
 
 function settledPart(values: Values, traces: Traces): Part {
-  const known = { ...values, ...picked(PAPER.datum, PAPER.neutral) } as unknown as LinearParameters;
+  const linear = known({ ...values, ...picked(PAPER.datum, PAPER.neutral) });
   const { entry, stays, sentence } = compressedFrom(traces, values);
-  const hasMode = known.k + known.r > 0;
-  const settled = hasMode ? WHEELS_SETTLED / Math.max(wheelDecayRate(known, values["V_0"]!), 1e-9) : entry;
+  const hasMode = linear.k + linear.r > 0;
+  const settled = hasMode ? WHEELS_SETTLED / Math.max(wheelDecayRate(linear, values["V_0"]!), 1e-9) : entry;
   const begin = traces.time.findIndex((t) => t >= Math.max(entry, settled));
   const from = begin < 0 ? traces.time.length - 1 : begin;
-  const modes = hasMode ? modesAlong(known, traces.v_car.subarray(from)) : [];
+  const modes = hasMode ? modesAlong(linear, traces.v_car.subarray(from)) : [];
   const beyond = changed(values, PAPER.beyond)[0];
   return {
     time: traces.time.subarray(from),
@@ -128,8 +128,15 @@ function indexOf(growth: Float64Array, measure: number, samples: number): number
   return samples;
 }
 
+/** Rows that are judged together, or not. */
+function rows(notJudged: string) {
+  return (quantity: string, unit: string, theory: number, run: number, allowed: number): Judged =>
+    ({ quantity, unit, theory, run, allowed, notJudged });
+}
+
 function modeRows(part: Part, window: number, found: Oscillation | string): Judged[] {
-  const [growth, frequency] = [part.growth, part.frequency].map((column) => mean(column.subarray(0, window))) as [number, number];
+  const growth = mean(part.growth.subarray(0, window));
+  const frequency = mean(part.frequency.subarray(0, window));
   let reason = part.notLinear;
   if (part.growth.length === 0) {
     reason ||= "k = r = 0 leave no shunting mode";
@@ -143,8 +150,7 @@ function modeRows(part: Part, window: number, found: Oscillation | string): Judg
   const allowed = GROWTH_ALLOWED[0] + GROWTH_ALLOWED[1] * Math.abs(growth);
   const ratio = (re: number, f: number): number => -re / Math.hypot(re, 2 * Math.PI * f);
   const [omega, damping] = [2 * Math.PI * frequency, ratio(growth, frequency)];
-  const row = (quantity: string, unit: string, theory: number, run: number, allowed: number): Judged =>
-    ({ quantity, unit, theory, run, allowed, notJudged: reason });
+  const row = rows(reason);
   return [
     row("shunting growth", "1/s", growth, measured.growth, allowed),
     row("shunting frequency", "Hz", frequency, measured.frequency, FREQUENCY_ALLOWED * frequency),
@@ -165,16 +171,19 @@ function steadyRows(
   const first = Math.min(from, last - 1);
   const A_c = (alone.v_car[last]! - alone.v_car[first]!) / (alone.time[last]! - alone.time[first]!);
   const silent = [reason, theory.silent].filter((text) => text).join("; ");
-  const unbraked = silent || (A_c ? "" : "nothing brakes the car");
+  const notJudged = silent || (A_c ? "" : "nothing brakes the car");
+  const pushed = theory.D - values["eps"]!;
+  const row = rows(notJudged);
   return [
-    { quantity: "acceleration A", unit: "m/s2", theory: theory.A, run: A, allowed: relative * Math.abs(theory.A), notJudged: unbraked },
-    { quantity: "A / A_c", unit: "1", theory: theory.ratio, run: A / A_c, allowed: RATIO_ALLOWED, notJudged: unbraked },
-    { quantity: "compression D", unit: "m", theory: theory.D, run: D, allowed: relative * (theory.D - values["eps"]!), notJudged: unbraked },
+    row("acceleration A", "m/s2", theory.A, A, relative * Math.abs(theory.A)),
+    row("A / A_c", "1", theory.ratio, A / A_c, RATIO_ALLOWED),
+    row("compression D", "m", theory.D, D, relative * pushed),
   ];
 }
 
 /** From the settled end of the run, else from the fit. */
-function steadyValues({ growth, time, a_car, compression, stays, notLinear }: Part, window: number, found: Oscillation | string) {
+function steadyValues(part: Part, window: number, found: Oscillation | string) {
+  const { growth, time, a_car, compression, stays, notLinear } = part;
   const settled = indexOf(growth, SETTLED, time.length);
   if (stays && settled < time.length - 1) {
     return { A: mean(a_car.subarray(settled)), D: mean(compression.subarray(settled)), reason: notLinear };

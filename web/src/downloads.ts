@@ -2,7 +2,7 @@
 import * as Plot from "@observablehq/plot";
 import { element, place } from "./element.js";
 import { OUTPUTS, type Traces } from "./engine.js";
-import { PAPER, changed, type Values } from "./paper.js";
+import { changed, type Values } from "./paper.js";
 import type { Steady } from "./steady.js";
 import { DASHES, PANELS, columns } from "./traces.js";
 import type { Description } from "./unit.js";
@@ -35,8 +35,8 @@ function save(name: string, type: string, text: string): void {
 /** The table that `hitch run` writes. */
 export function csv(traces: Traces, { variables }: Description): string {
   const heads = OUTPUTS.map((name) => `${name} [${variables[name]!.unit}]`);
-  const rows = Array.from(traces.time, (time, i) => [Number(time.toFixed(9)), ...OUTPUTS.map((name) => traces[name][i]!)]);
-  return [["time [s]", ...heads], ...rows].map((row) => `${row.join(",")}\r\n`).join("");
+  const row = (time: number, i: number) => [Number(time.toFixed(9)), ...OUTPUTS.map((name) => traces[name][i]!)];
+  return [["time [s]", ...heads], ...Array.from(traces.time, row)].map((row) => `${row.join(",")}\r\n`).join("");
 }
 
 /** The file for `hitch run --parameters`. */
@@ -46,8 +46,8 @@ export function toml(values: Values, { variables }: Description): string {
     const { unit, description } = variables[name]!;
     return `${name} = ${/[.e]/.test(number) ? number : `${number}.0`}  # ${unit}, ${description}`;
   });
-  const torque = values["brake_torque"] === PAPER.datum["brake_torque"] ? "" : ` --brake-torque ${values["brake_torque"]}`;
-  return [`# hitch run --parameters hitch.toml${torque}`, ...lines, ""].join("\n");
+  const torque = changed(values, ["brake_torque"]).map((name) => ` --brake-torque ${values[name]}`);
+  return [`# hitch run --parameters hitch.toml${torque.join("")}`, ...lines, ""].join("\n");
 }
 
 /** The call that repeats the run. */
@@ -63,7 +63,8 @@ function svg({ values, traces, steady }: Shown): string {
     const names = [...Object.keys(panel.of), ...(panel.steady ? ["steady"] : [])];
     const found = columns(panel, traces, steady);
     const picture = Plot.plot({
-      width: WIDTH, height: HEIGHT, marginLeft: 60, marginTop: 34, marginBottom: 42, style: "font: 12px sans-serif; color: #1c2126",
+      ...{ width: WIDTH, height: HEIGHT, marginLeft: 60, marginTop: 34, marginBottom: 42 },
+      style: "font: 12px sans-serif; color: #1c2126",
       x: { label: "Time (s)" }, y: { label: panel.name, grid: true },
       marks: [
         ...found.map((column, i) => Plot.lineY(column, {
@@ -79,6 +80,7 @@ function svg({ values, traces, steady }: Shown): string {
     return new XMLSerializer().serializeToString(picture);
   });
   const heading = element("b", {}, `Overrun hitch: ${title || "figure 8"}`).innerHTML;
-  return `<svg xmlns="http://www.w3.org/2000/svg" width="${WIDTH}" height="${30 + 3 * HEIGHT}" style="background: white">
+  const size = `width="${WIDTH}" height="${30 + PANELS.length * HEIGHT}"`;
+  return `<svg xmlns="http://www.w3.org/2000/svg" ${size} style="background: white">
 <text x="10" y="20" font-family="sans-serif" font-size="13">${heading}</text>${panels.join("")}</svg>`;
 }

@@ -8,14 +8,7 @@ const STANDSTILL = 0.1; // m/s: the paper's slip, a difference over the speed, m
 
 /** The outputs that are seen, each a Float64Array over `time`, in SI units. */
 export const OUTPUTS = [
-  "v_car",
-  "v_trailer",
-  "a_car",
-  "a_trailer",
-  "compression",
-  "F_hitch",
-  "slip_car",
-  "slip_trailer",
+  "v_car", "v_trailer", "a_car", "a_trailer", "compression", "F_hitch", "slip_car", "slip_trailer",
   "trailer_brake_torque",
 ] as const;
 
@@ -27,9 +20,10 @@ export type Traces = Record<(typeof OUTPUTS)[number] | "time", Float64Array>;
  */
 export function brake(unit: Unit, values: Values, duration = PAPER.duration): Traces {
   const time = Float64Array.from({ length: Math.round(duration / STEP) + 1 }, (_, i) => i * STEP);
+  const { V_0 } = values;
   unit.start(values);
-  if (!(values["V_0"]! >= STANDSTILL)) {
-    throw new RangeError(`V_0 = ${values["V_0"]} m/s is not allowed: a step brake starts at ${STANDSTILL} m/s at least`);
+  if (!(V_0! >= STANDSTILL)) {
+    throw new RangeError(`V_0 = ${V_0} m/s is not allowed: a step brake starts at ${STANDSTILL} m/s at least`);
   }
   const found = { time, ...unit.sample(time, [...OUTPUTS], PATIENCE) } as Traces;
   const rest = time.findIndex((_, i) => becomesSlower(found, i));

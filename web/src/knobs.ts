@@ -1,8 +1,8 @@
 /** The knobs of the page: a slider and a field each, for one parameter or input of the unit. */
 import { element } from "./element.js";
-import { PAPER, type Values } from "./paper.js";
+import { PAPER, changed, type Values } from "./paper.js";
 import { typed } from "./state.js";
-import type { Description } from "./unit.js";
+import type { Description, Variable } from "./unit.js";
 
 export interface Span {
   from: number;
@@ -24,89 +24,87 @@ export const SPANS: Record<string, Span> = {
   brake_torque: { from: 0, to: 4000, step: 10 },
 };
 
-export interface Knobs {
-  /** Shows values; but for `anew`, a field with a wrong text keeps it until its knob has another value. */
-  show(values: Values, anew: boolean): void;
-  /** Marks the field of what a message names first, "C = -5 ...", or none; whether there is such a field. */
-  complain(name: string, text: string, message: string): boolean;
+/** Told a knob's new number, answers what is wrong with it, or "". */
+type Turned = (name: string, value: number) => string;
+
+/** Makes the knobs in `parent`, by name. */
+export function makeKnobs(parent: HTMLElement, { variables }: Description, turned: Turned): Record<string, Knob> {
+  const knobs = Object.keys(SPANS).map((name) => [name, new Knob(name, variables[name]!, turned)] as const);
+  parent.append(...knobs.map(([, knob]) => knob.row));
+  return Object.fromEntries(knobs);
 }
 
-/** Makes the knobs in `parent`; `turned` is told each new number and answers what is wrong with it, or "". */
-export function makeKnobs(parent: HTMLElement, unit: Description, turned: (name: string, value: number) => string): Knobs {
-  const knobs = new Map<string, ReturnType<typeof makeKnob>>();
-  for (const [name, span] of Object.entries(SPANS)) {
-    const knob = makeKnob(name, span, unit, turned);
-    knobs.set(name, knob);
-    parent.append(knob.row);
-  }
-  return {
-    show: (values, anew) => knobs.forEach((knob, name) => knob.show(values[name]!, anew)),
-    complain: (name, text, message) => knobs.get(name)?.complain(text, message) ?? false,
-  };
-}
+export class Knob {
+  readonly row: HTMLElement;
+  readonly #slider: HTMLInputElement;
+  readonly #field: HTMLInputElement;
+  readonly #told: HTMLElement;
+  readonly #unit: string;
+  #last = NaN;
 
-function makeKnob(name: string, span: Span, unit: Description, turned: (name: string, value: number) => string) {
-  const variable = unit.variables[name]!;
-  const { unit: symbol } = variable;
-  const meaning = PAPER.meanings[name]!;
-  const slider = element("input", { type: "range", min: span.from, max: span.to, step: span.step });
-  const field = element("input", { type: "text", inputMode: "decimal", autocomplete: "off", spellcheck: false });
-  const told = element("p", { id: `told-${name}`, className: "told", ariaLive: "polite" });
-  field.id = `knob-${name}`;
-  const label = element("label", { htmlFor: field.id }, meaning, element("i", {}, name));
-  slider.setAttribute("aria-label", `${meaning}, ${name}, slider`);
-  field.setAttribute("aria-describedby", `${told.id} unit-${name}`);
-  let last = NaN;
-  const tell = (message: string): void => {
-    told.textContent = message;
-    field.setAttribute("aria-invalid", String(message !== ""));
-  };
-  slider.addEventListener("input", () => {
-    field.value = slider.value;
-    tell(turned(name, slider.valueAsNumber));
-  });
-  field.addEventListener("input", () => {
-    try {
-      tell(turned(name, typed(name, field.value, variable)));
-    } catch (error) {
-      tell((error as Error).message);
-    }
-  });
-  const unitText = element("span", { id: `unit-${name}` }, symbol ?? "");
-  return {
-    row: element("div", { className: "knob" }, label, slider, field, unitText, told),
-    show(value: number, anew: boolean) {
-      slider.value = String(value);
-      slider.setAttribute("aria-valuetext", `${value} ${symbol}`);
-      if (anew || (document.activeElement !== field && (value !== last || told.textContent === ""))) {
-        field.value = String(value);
-        tell("");
+  constructor(name: string, variable: Variable, turned: Turned) {
+    const { from, to, step } = SPANS[name]!;
+    const [id, meaning] = [`knob-${name}`, PAPER.meanings[name]!];
+    this.#unit = variable.unit ?? "";
+    const ariaLabel = `${meaning}, ${name}, slider`;
+    this.#slider = element("input", { type: "range", min: from, max: to, step, ariaLabel });
+    this.#field = element("input", { id, type: "text", inputMode: "decimal", autocomplete: "off", spellcheck: false });
+    this.#told = element("p", { id: `told-${name}`, className: "told", ariaLive: "polite" });
+    const label = element("label", { htmlFor: id }, meaning, element("i", {}, name));
+    const unit = element("span", { id: `unit-${name}` }, this.#unit);
+    this.#field.setAttribute("aria-describedby", `unit-${name} told-${name}`);
+    this.#slider.addEventListener("input", () => {
+      this.#field.value = this.#slider.value;
+      this.#tell(turned(name, this.#slider.valueAsNumber));
+    });
+    this.#field.addEventListener("input", () => {
+      try {
+        this.#tell(turned(name, typed(name, this.#field.value, variable)));
+      } catch (error) {
+        this.#tell((error as Error).message);
       }
-      last = value;
-    },
-    complain(text: string, message: string) {
-      field.value = text;
-      tell(message);
-      return true;
-    },
-  };
+    });
+    this.row = element("div", { className: "knob" }, label, this.#slider, this.#field, unit, this.#told);
+  }
+
+  /** But for `anew`, a field with a wrong text keeps it until its knob has another value. */
+  show(value: number, anew: boolean): void {
+    this.#slider.value = String(value);
+    this.#slider.setAttribute("aria-valuetext", `${value} ${this.#unit}`);
+    const waits = document.activeElement === this.#field || (value === this.#last && this.#told.textContent !== "");
+    if (anew || !waits) {
+      this.complain(String(value), "");
+    }
+    this.#last = value;
+  }
+
+  complain(text: string, message: string): void {
+    this.#field.value = text;
+    this.#tell(message);
+  }
+
+  #tell(message: string): void {
+    this.#told.textContent = message;
+    this.#field.setAttribute("aria-invalid", String(message !== ""));
+  }
 }
 
-/** The presets: figures and cases of the paper, and what is none of these. */
+/** The presets, figures and cases of the paper; what comes back shows which of them has these values, if one has. */
 export function makePresets(select: HTMLSelectElement, chosen: (values: Values) => void): (values: Values) => void {
-  const presets = Object.entries({ "Figures of the paper": PAPER.figures, "Its cases, with C = 500 N.s/m": PAPER.cases });
-  const all = presets.flatMap(([heading, table]) => {
-    const word = table === PAPER.figures ? "Figure" : "Case";
-    const options = Object.keys(table).map((name) => element("option", { value: `${word} ${name}` }, `${word} ${name}`));
+  const presets: Record<string, Values> = {};
+  select.append(element("option", { value: "" }, "Own values"));
+  for (const [heading, word, table] of [
+    ["Figures of the paper", "Figure", PAPER.figures],
+    ["Its cases, with C = 500 N.s/m", "Case", PAPER.cases],
+  ] as const) {
+    const names = Object.keys(table).map((name) => `${word} ${name}`);
+    const options = names.map((name) => element("option", { value: name }, name));
     select.append(element("optgroup", { label: heading }, ...options));
-    return Object.entries(table).map(([name, values]) => [`${word} ${name}`, { ...PAPER.datum, ...values }] as const);
-  });
-  select.prepend(element("option", { value: "" }, "Own values"));
-  select.addEventListener("change", () => chosen({ ...(all.find(([name]) => name === select.value)?.[1] ?? PAPER.datum) }));
+    Object.values(table).forEach((values, i) => (presets[names[i]!] = { ...PAPER.datum, ...values }));
+  }
+  select.addEventListener("change", () => chosen({ ...(presets[select.value] ?? PAPER.datum) }));
   return (values) => {
-    const same = all.filter(([, preset]) => Object.keys(preset).every((name) => preset[name] === values[name]));
-    if (!same.some(([name]) => name === select.value)) {
-      select.value = same[0]?.[0] ?? "";
-    }
+    const same = Object.keys(presets).filter((name) => changed(values, undefined, presets[name]).length === 0);
+    select.value = same.includes(select.value) ? select.value : (same[0] ?? "");
   };
 }

@@ -2,22 +2,10 @@
 import { EigenvalueDecomposition, Matrix, inverse } from "ml-matrix";
 
 /** Of the paper's parameters those that linear theory knows, in SI units; what they mean: docs/parameters.md. */
-export interface LinearParameters {
-  M_c: number;
-  M_t: number;
-  I_c: number;
-  I_t: number;
-  R_c: number;
-  R_t: number;
-  C_kc: number;
-  C_kt: number;
-  k: number;
-  C: number;
-  rebound: number;
-  r: number;
-  tau_b: number;
-  sigma: number;
-}
+export type LinearParameters = Record<
+  "M_c" | "M_t" | "I_c" | "I_t" | "R_c" | "R_t" | "C_kc" | "C_kt" | "k" | "C" | "rebound" | "r" | "tau_b" | "sigma",
+  number
+>;
 
 /** Of e^(re + i im)t, both in 1/s. */
 export interface Eigenvalue {

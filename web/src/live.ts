@@ -1,16 +1,16 @@
 /** The live page: knobs, a run of the unit at each of their values, what theory says of them. */
 import json from "unit.json";
 import bytes from "unit.wasm";
-import { compare, verdict, type Judged } from "./comparison.js";
+import { compare, verdict } from "./comparison.js";
 import { makeDownloads, python, type Shown } from "./downloads.js";
 import { element, place, settled } from "./element.js";
 import { brake, brakeAlone } from "./engine.js";
 import { SPANS, makeKnobs, makePresets } from "./knobs.js";
-import { criticalDamping, type LinearParameters } from "./linear.js";
+import { criticalDamping } from "./linear.js";
 import "./live.css";
 import { makeMap } from "./map.js";
-import { makeMotion } from "./motion.js";
-import { PAPER, changed, type Values } from "./paper.js";
+import { Motion } from "./motion.js";
+import { PAPER, changed, known, type Values } from "./paper.js";
 import { makePlane } from "./plane.js";
 import { link, linked, typed, type Metric, type State } from "./state.js";
 import { steady } from "./steady.js";
@@ -28,8 +28,10 @@ let shown: Shown;
 
 const traces = makeTraces(place("traces"));
 const plane = makePlane(place("plane"));
-const motion = makeMotion(traces.at);
-const knobs = makeKnobs(place("knobs"), description, (name, value) => attempt({ ...state.values, [name]: value }, false));
+const motion = new Motion(traces.at);
+const knobs = makeKnobs(place("knobs"), description, (name, value) =>
+  attempt({ ...state.values, [name]: value }, false),
+);
 const presets = makePresets(place<HTMLSelectElement>("preset"), take);
 const map = makeMap(place("map"), { module, description }, (values) => take({ ...state.values, ...values }));
 makeDownloads(description, () => shown);
@@ -43,9 +45,9 @@ function attempt(values: Values, anew: boolean): string {
   }
   state.values = values;
   traces.show(shown.traces, shown.steady);
-  motion(shown.traces, values["eps"]!);
+  motion.show(shown.traces, values["eps"]!);
   plane(values);
-  knobs.show(values, anew);
+  Object.entries(knobs).forEach(([name, knob]) => knob.show(values[name]!, anew));
   presets(values);
   later();
   return "";
@@ -59,36 +61,36 @@ const later = settled(() => {
   history.replaceState(null, "", link(state));
   place("python").textContent = python(state.values);
   const others = changed(state.values).filter((name) => !(name in SPANS));
-  place("others").parentElement!.hidden = others.length === 0;
-  place("others").textContent = others.map((name) => `${name} = ${state.values[name]} ${description.variables[name]!.unit}`).join(", ");
+  const told = others.map((name) => `${name} = ${state.values[name]} ${description.variables[name]!.unit}`);
+  place("others").textContent = told.join(", ");
+  place("others").parentElement!.hidden = told.length === 0;
   numbers();
   map(state);
 }, QUIET);
 
 function numbers(): void {
   const rows = compare(state.values, shown.traces, brakeAlone(unit, state.values));
-  place("numbers").replaceChildren(critical(), ...rows.map(row));
-  const said = (growth: number): string =>
-    Number.isFinite(growth) ? `shunting ${growth > 0 ? "grows" : "dies out"} at ${number(growth)} 1/s` : "nothing to tell";
+  const judged = rows.map((one) => row(one.quantity, one.unit, one.theory, one.run, verdict(one)));
+  place("numbers").replaceChildren(row("C_crit at V_0", "N.s/m", critical(), NaN, ""), ...judged);
+  const said = (rate: number): string =>
+    Number.isFinite(rate) ? `shunting ${rate > 0 ? "grows" : "dies out"} at ${number(rate)} 1/s` : "nothing to tell";
   place("verdict").textContent = `Theory: ${said(rows[0]!.theory)}. Run: ${said(rows[0]!.run)}: ${verdict(rows[0]!)}.`;
   const reasons = [...new Set(rows.flatMap(({ notJudged }) => notJudged.split("; ")))].filter((reason) => reason);
   place("reasons").textContent = reasons.length > 0 ? `Not judged: ${reasons.join("; ")}.` : "";
 }
 
-function critical(): Element {
-  let value = NaN;
+/** C_crit is theory's alone; NaN where it has none, and then the other rows say why. */
+function critical(): number {
   try {
-    value = criticalDamping(state.values as unknown as LinearParameters, state.values["V_0"]!);
+    return criticalDamping(known(state.values), state.values["V_0"]!);
   } catch {
-    // theory has none, and the other rows say why
+    return NaN;
   }
-  return row({ quantity: "C_crit at V_0", unit: "N.s/m", theory: value, run: NaN, allowed: 0, notJudged: "theory's alone" });
 }
 
-function row(judged: Judged): Element {
-  const word = judged.notJudged === "theory's alone" ? "" : verdict(judged);
-  const numbers = [judged.theory, judged.run].map((value) => element("td", {}, number(value)));
-  const heading = element("th", { scope: "row" }, judged.quantity, " ", element("small", {}, judged.unit));
+function row(quantity: string, unit: string, theory: number, run: number, word: string): Element {
+  const numbers = [theory, run].map((value) => element("td", {}, number(value)));
+  const heading = element("th", { scope: "row" }, quantity, " ", element("small", {}, unit));
   return element("tr", {}, heading, ...numbers, element("td", { className: word.replace(" ", "-") }, word));
 }
 
@@ -100,8 +102,8 @@ function number(value: number): string {
 function follow(): void {
   const { state: map, texts, unknown } = linked(location.hash, Object.keys(SPANS));
   Object.assign(state, map);
-  const told = unknown.map((text) => `The page has no ${text}.`);
-  const refused: [string, string, string][] = [];
+  const told = unknown.slice(0, 3).map((text) => `The page has no ${text}.`);
+  const refused: [name: string, text: string, message: string][] = [];
   let values = { ...PAPER.datum };
   for (const [name, text] of Object.entries(texts)) {
     try {
@@ -113,8 +115,13 @@ function follow(): void {
     }
   }
   told.push(attempt(values, true));
-  const unplaced = refused.filter(([name, text, message]) => !knobs.complain(name, text, message));
-  place("alert").textContent = [...told, ...unplaced.map(([, , message]) => message)].join(" ").trim();
+  for (const [name, text, message] of refused) {
+    knobs[name]?.complain(text, message);
+    if (!knobs[name]) {
+      told.push(message);
+    }
+  }
+  place("alert").textContent = told.join(" ").trim();
   for (const key of ["x", "y", "show"] as const) {
     place<HTMLSelectElement>(key).value = state[key];
   }

@@ -9,11 +9,14 @@ import type { Metric, State } from "./state.js";
 import type { Description } from "./unit.js";
 
 const [ACROSS, UP] = [30, 20]; // cells
+const CORNERS = { x1: "x1", x2: "x2", y1: "y1", y2: "y2" };
+const DOT = { r: 1.4, fill: "white", stroke: "black", strokeWidth: 0.4 };
 const DRAWN = 5; // rows at a time
-const SHADES: Record<Metric, { label: string; domain: [number, number]; type: "linear" | "log" }> = {
-  growth: { label: "growth of the swing (1/s): above 0 it grows", domain: [-1, 1], type: "linear" },
+const SHADES: Record<Metric, { label: string; domain: [number, number]; type: "symlog" | "log" }> = {
+  growth: { label: "growth of the swing (1/s): above 0 it grows", domain: [-1, 1], type: "symlog" },
   jerk: { label: "peak jerk (m/s³)", domain: [1, 1000], type: "log" },
 };
+const AROUND_0 = 0.05; // 1/s, where small growth and small decay are told apart
 
 interface Loaded {
   module: WebAssembly.Module;
@@ -29,7 +32,7 @@ function axis(name: string, n: number): { edges: number[]; middles: number[]; ty
   return { type, edges, middles: edges.slice(1).map((_, i) => Number(at((i + 0.5) / n).toPrecision(3))) };
 }
 
-/** The worker with its unit; what comes back asks it for the rows of a state's map and fills them in, telling `heard`. */
+/** The worker with its unit. What comes back asks it for the rows of a state's map, which come by and by: `heard`. */
 function makeCrew(unit: Loaded, heard: () => void): (state: State) => (Row | undefined)[] {
   const crew = new Worker(URL.createObjectURL(new Blob([worker], { type: "text/javascript" })));
   crew.postMessage(unit);
@@ -71,8 +74,10 @@ export function makeMap(parent: HTMLElement, unit: Loaded, taken: (values: Value
   const ask = makeCrew(unit, show);
   parent.addEventListener("click", (event) => {
     const box = picture.getBoundingClientRect();
-    const [x, y] = [picture.scale("x")!.invert!(event.clientX - box.left), picture.scale("y")!.invert!(event.clientY - box.top)];
-    taken({ ...cellAt(state.x, ACROSS, x), ...cellAt(state.y, UP, y) });
+    const shrunk = Number(picture.getAttribute("width")) / box.width; // in a window that has become narrower
+    const at = (axis: "x" | "y", pixels: number): number => picture.scale(axis)!.invert!(pixels * shrunk);
+    const across = cellAt(state.x, ACROSS, at("x", event.clientX - box.left));
+    taken({ ...across, ...cellAt(state.y, UP, at("y", event.clientY - box.top)) });
   });
   parent.addEventListener("keydown", (event) => {
     const step = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
@@ -103,8 +108,9 @@ function nearest(values: number[], value: number): number {
 function told({ values, x, y, show }: State, rows: (Row | undefined)[]): string {
   const [i, j] = [nearest(axis(x, ACROSS).middles, values[x]!), nearest(axis(y, UP).middles, values[y]!)];
   const here = rows[j]?.cells[i];
-  const value = here ? `${SHADES[show].label}: ${here[show].toPrecision(3)}${here.leaves ? ", leaves compression" : ""}` : "";
-  return `Map over ${x} and ${y}, arrow keys move: ${x} = ${values[x]}, ${y} = ${values[y]}. ${value}`;
+  const leaves = here?.leaves ? ", leaves compression" : "";
+  const value = here && `${SHADES[show].label}: ${here[show].toPrecision(3)}${leaves}`;
+  return `Map over ${x} and ${y}, arrow keys move: ${x} = ${values[x]}, ${y} = ${values[y]}. ${value ?? ""}`;
 }
 
 function draw(state: State, rows: (Row | undefined)[], labels: string[], width: number): Plot.Plot & Element {
@@ -115,23 +121,20 @@ function draw(state: State, rows: (Row | undefined)[], labels: string[], width: 
       x: across.middles[i], y: up.middles[j],
     })),
   );
-  const boundary = rows.flatMap((row, j) => (row?.critical == null ? [] : [{ x: row.critical, y: up.middles[j] }]));
+  const boundary = rows.flatMap((row) => row?.boundary ?? []);
   const ends = (name: string): [number, number] => [SPANS[name]!.from, SPANS[name]!.to];
   const least = SHADES[state.show].domain[0];
   const shown = cells.filter((cell) => Number.isFinite(cell[state.show]));
   return Plot.plot({
     width,
-    height: 330,
-    marginLeft: 58,
-    marginTop: 28,
-    marginBottom: 42,
+    ...{ height: 330, marginLeft: 58, marginTop: 28, marginBottom: 42 },
     style: { fontSize: "13px", background: "none" },
     x: { label: `${labels[0]} →`, type: across.type, domain: ends(state.x), ticks: 4, tickFormat: String },
     y: { label: `↑ ${labels[1]}`, type: up.type, domain: ends(state.y), ticks: 5, tickFormat: String },
-    color: { ...SHADES[state.show], scheme: "viridis", clamp: true, reverse: true, ticks: 4, tickFormat: String },
+    color: { ...SHADES[state.show], constant: AROUND_0, scheme: "viridis", clamp: true, reverse: true, ticks: 4 },
     marks: [
-      Plot.rect(shown, { x1: "x1", x2: "x2", y1: "y1", y2: "y2", fill: (cell) => Math.max(cell[state.show], least), inset: -0.25 }),
-      Plot.dot(cells.filter((cell) => cell.leaves), { x: "x", y: "y", r: 1.4, fill: "white", stroke: "black", strokeWidth: 0.4 }),
+      Plot.rect(shown, { ...CORNERS, fill: (cell) => Math.max(cell[state.show], least), inset: -0.25 }),
+      Plot.dot(cells.filter((cell) => cell.leaves), { x: "x", y: "y", ...DOT }),
       Plot.line(boundary, { x: "x", y: "y", stroke: "white", strokeWidth: 4, clip: true }),
       Plot.line(boundary, { x: "x", y: "y", stroke: "black", strokeWidth: 2, strokeDasharray: "6 3", clip: true }),
       Plot.dot([picked(state.values, [state.x, state.y])], {

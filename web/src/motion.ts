@@ -2,53 +2,60 @@
 import { place } from "./element.js";
 import type { Traces } from "./engine.js";
 
-const REST = 360; // where the plunger is in the drawing, px; the car stays, the trailer moves against it
-const SEAT = 250; // and the spring's other end
+const PLUNGER = 360; // px, where it is in the drawing: the car stays, the trailer moves against it
+const SEAT = 160; // px, where the spring's other end is while the drawbar is at rest
 const ROOM = 75; // px, that the largest compression takes
 const ROAD = 6; // px a metre
 const COILS = 9;
 
-/** Makes the buttons work; what comes back is given each new run. `at` is told the time that is shown. */
-export function makeMotion(at: (time: number) => void): (traces: Traces, eps: number) => void {
-  const [play, slowness, slider] = [place<HTMLButtonElement>("play"), place<HTMLSelectElement>("slowness"), place<HTMLInputElement>("time")];
-  let [traces, eps, time, before] = [null as Traces | null, 0, 0, 0];
-  let plays = !matchMedia("(prefers-reduced-motion: reduce)").matches;
-  const show = (): void => {
-    slider.value = String(time);
-    slider.setAttribute("aria-valuetext", `${time.toFixed(2)} s`);
-    at(time);
-    if (traces) {
-      draw(traces, eps, time);
+/** The drawing, and what plays it: it goes on from where it is when it is given another run. */
+export class Motion {
+  readonly #play = place<HTMLButtonElement>("play");
+  readonly #slowness = place<HTMLSelectElement>("slowness");
+  readonly #slider = place<HTMLInputElement>("time");
+  #run: { traces: Traces; eps: number } | null = null;
+  #time = 0; // s
+  #plays = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+
+  /** `at` is told each time that is shown. */
+  constructor(private readonly at: (time: number) => void) {
+    this.#play.addEventListener("click", () => this.#go(!this.#plays));
+    this.#slider.addEventListener("input", () => {
+      this.#go(false);
+      this.#show(this.#slider.valueAsNumber);
+    });
+    this.#go(this.#plays);
+    requestAnimationFrame((now) => this.#frame(now, now));
+  }
+
+  show(traces: Traces, eps: number): void {
+    this.#run = { traces, eps };
+    this.#slider.max = String(traces.time.at(-1)!);
+    this.#show(Math.min(this.#time, traces.time.at(-1)!));
+  }
+
+  #go(plays: boolean): void {
+    this.#plays = plays;
+    this.#play.textContent = plays ? "Pause" : "Play";
+  }
+
+  #frame(before: number, now: number): void {
+    if (this.#plays && this.#run) {
+      const next = this.#time + (now - before) / 1000 / Number(this.#slowness.value);
+      this.#show(next > this.#run.traces.time.at(-1)! ? 0 : next);
     }
-  };
-  const frame = (now: number): void => {
-    if (plays && traces) {
-      const end = traces.time.at(-1)!;
-      time += (now - before) / 1000 / Number(slowness.value);
-      time = time > end ? 0 : time;
-      show();
+    requestAnimationFrame((then) => this.#frame(now, then));
+  }
+
+  #show(time: number): void {
+    this.#time = time;
+    this.#slider.value = String(time);
+    this.#slider.setAttribute("aria-valuetext", `${time.toFixed(2)} s`);
+    this.at(time);
+    if (this.#run) {
+      draw(this.#run.traces, this.#run.eps, time);
     }
-    before = now;
-    requestAnimationFrame(frame);
-  };
-  const label = (): void => void (play.textContent = plays ? "Pause" : "Play");
-  play.addEventListener("click", () => {
-    plays = !plays;
-    label();
-  });
-  slider.addEventListener("input", () => {
-    [time, plays] = [slider.valueAsNumber, false];
-    label();
-    show();
-  });
-  label();
-  requestAnimationFrame(frame);
-  return (next, clearance) => {
-    [traces, eps] = [next, clearance];
-    slider.max = String(next.time.at(-1)!);
-    time = Math.min(time, next.time.at(-1)!);
-    show();
-  };
+  }
 }
 
 function draw(traces: Traces, eps: number, time: number): void {
@@ -57,22 +64,22 @@ function draw(traces: Traces, eps: number, time: number): void {
   const most = Math.max(0.05, eps, ...traces.compression);
   const scale = ROOM / most; // px a metre of the drawbar
   const moved = traces.compression[i]! * scale;
-  move("trailer-drawn", moved);
+  set("trailer-drawn", "transform", `translate(${moved} 0)`);
   // The spring's free end is held by its stop until the plunger has crossed the clearance.
-  const end = Math.min(REST, REST - eps * scale + moved);
-  place("spring").setAttribute("d", coil(SEAT - 90 + moved, end));
-  place("seat").setAttribute("x", String(end - 3));
-  place("gap").setAttribute("x", String(end));
-  place("gap").setAttribute("width", String(Math.max(0, REST - end)));
-  place("ruler").setAttribute("width", String(ruler(most) * scale));
+  const end = Math.min(PLUNGER, PLUNGER - eps * scale + moved);
+  set("spring", "d", coil(SEAT + moved, end));
+  set("seat", "x", end - 3);
+  set("gap", "x", end);
+  set("gap", "width", Math.max(0, PLUNGER - end));
+  set("ruler", "width", ruler(most) * scale);
   place("ruler-length").textContent = `${ruler(most) * 1000} mm of the drawbar`;
-  place("road").setAttribute("stroke-dashoffset", String(distance(traces, i) * ROAD));
+  set("road", "stroke-dashoffset", distance(traces, i) * ROAD);
   const torque = Math.max(...traces.trailer_brake_torque) || 1;
-  place("trailer-brake").setAttribute("opacity", String(Math.max(0, traces.trailer_brake_torque[i]! / torque)));
+  set("trailer-brake", "opacity", Math.max(0, traces.trailer_brake_torque[i]! / torque));
 }
 
-function move(id: string, by: number): void {
-  place(id).setAttribute("transform", `translate(${by} 0)`);
+function set(id: string, attribute: string, value: string | number): void {
+  place(id).setAttribute(attribute, String(value));
 }
 
 /** A length that is easily said, in m. */

@@ -93,7 +93,7 @@ function predicted(window: Float64Array, scaled: Float64Array, stride: number): 
 }
 
 /** What is left of the trace beside its projection on offset, cosine and sine, and the offset's share. */
-function remainder(unknowns: Unknowns, window: Float64Array, scaled: Float64Array): { left: Float64Array; offset: number } {
+function remainder(unknowns: Unknowns, window: Float64Array, scaled: Float64Array) {
   const [growth, omega, growthSlope, omegaSlope] = unknowns;
   const exponents = window.map((t) => growth * t + 0.5 * growthSlope * t * t);
   const most = Math.max(...exponents); // so that no trial overflows
@@ -125,7 +125,7 @@ function subtract(from: Float64Array, factor: number, other: Float64Array): void
 /** Levenberg's and Marquardt's method on the remainder, with slopes by differences. */
 function refined(start: Unknowns, window: Float64Array, scaled: Float64Array): Unknowns {
   const scales = [1, Math.abs(start[1]), 1, Math.abs(start[1])];
-  const moved = (from: Unknowns, by: number[]): Unknowns => from.map((value, i) => value + by[i]! * scales[i]!) as Unknowns;
+  const moved = (from: Unknowns, by: number[]) => from.map((value, i) => value + by[i]! * scales[i]!) as Unknowns;
   let [best, { left }] = [start, remainder(start, window, scaled)];
   let damping = 1e-3;
   for (let trial = 0; trial < TRIALS; trial++) {

@@ -1,5 +1,6 @@
 /** Parameters and inputs by name, in SI units, and what web/presets.py takes from parameters.py about them. */
 import json from "presets.json";
+import type { LinearParameters } from "./linear.js";
 
 export type Values = Record<string, number>;
 
@@ -16,9 +17,17 @@ interface Paper {
 
 export const PAPER = json as Paper;
 
-/** Those of `names` that differ from figure 8. */
-export function changed(values: Values, names = Object.keys(PAPER.datum)): string[] {
-  return names.filter((name) => values[name] !== PAPER.datum[name]);
+/** Those of `names` that differ, from figure 8 unless said otherwise. */
+export function changed(values: Values, names = Object.keys(PAPER.datum), from = PAPER.datum): string[] {
+  return names.filter((name) => values[name] !== from[name]);
+}
+
+/** What linear theory takes. RangeError for what it does not know. */
+export function known(values: Values): LinearParameters {
+  for (const name of changed(values, PAPER.neutral)) {
+    throw new RangeError(`linear theory does not know ${name} = ${values[name]}; allowed: ${PAPER.datum[name]}`);
+  }
+  return values as unknown as LinearParameters;
 }
 
 /** The values of `names` only. */

@@ -35,7 +35,8 @@ export function makeTraces(parent: HTMLElement) {
   new ResizeObserver(() => {
     panels.forEach(({ plot }) => plot.setSize({ width: parent.clientWidth, height: plot.height }));
   }).observe(parent);
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => panels.forEach(({ plot }) => plot.redraw()));
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  dark.addEventListener("change", () => panels.forEach(({ plot }) => plot.redraw()));
   return {
     show(traces: Traces, steady: Steady) {
       panels.forEach(({ panel, plot }) => plot.setData([traces.time, ...columns(panel, traces, steady)]));

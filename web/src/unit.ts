@@ -110,7 +110,8 @@ export class Unit {
     try {
       times.forEach((time, i) => {
         if (performance.now() - begin > patience) {
-          throw new UnitError(`a run takes longer than ${patience / 1000} s with this: it was ended at t = ${time.toFixed(2)} s`);
+          const taken = `takes longer than ${patience / 1000} s`;
+          throw new UnitError(`a run ${taken} with this: it was ended at t = ${time.toFixed(2)} s`);
         }
         if (i > 0) {
           this.#step(times[i - 1]!, time);

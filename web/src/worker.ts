@@ -1,8 +1,8 @@
 /** The map, off the page's thread: a run of a unit of its own for each cell, a row at a time. */
 import { cell, type Cell, type Request, type Row } from "./cell.js";
 import { brake } from "./engine.js";
-import { criticalDamping, type LinearParameters } from "./linear.js";
-import type { Values } from "./paper.js";
+import { criticalDamping } from "./linear.js";
+import { known, type Values } from "./paper.js";
 import { Unit, type Description } from "./unit.js";
 
 const LISTENS = 30; // ms, at least so often
@@ -15,11 +15,15 @@ function run(unit: Unit, values: Values): Cell {
   }
 }
 
-function critical(values: Values): number | null {
+/** C_crit (N.s/m) where the knob `name` has these values. */
+function boundary(values: Values, name: string, others: number[]): { C: number; other: number }[] {
   try {
-    return criticalDamping(values as unknown as LinearParameters, values["V_0"]!);
+    return others.map((other) => {
+      const here = { ...values, [name]: other };
+      return { C: criticalDamping(known(here), here["V_0"]!), other };
+    });
   } catch {
-    return null;
+    return [];
   }
 }
 
@@ -41,11 +45,16 @@ async function answer({ number, values, x, y }: Request): Promise<void> {
         return;
       }
     }
-    self.postMessage({ number, row, cells, critical: x.name === "C" ? critical(here) : null } satisfies Row);
+    const across = x.name === "C" ? boundary(values, y.name, [up]).map(({ C, other }) => ({ x: C, y: other })) : [];
+    const along = y.name === "C" && row === 0 ? boundary(values, x.name, x.values) : [];
+    const line = [...across, ...along.map(({ C, other }) => ({ x: other, y: C }))];
+    self.postMessage({ number, row, cells, boundary: line } satisfies Row);
   }
 }
 
-self.addEventListener("message", ({ data }: MessageEvent<Request | { module: WebAssembly.Module; description: Description }>) => {
+type Message = Request | { module: WebAssembly.Module; description: Description };
+
+self.addEventListener("message", ({ data }: MessageEvent<Message>) => {
   if ("module" in data) {
     unit = new Unit(data.module, data.description);
   } else {

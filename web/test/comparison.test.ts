@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
+import { cell } from "../src/cell.js";
 import { compare, verdict } from "../src/comparison.js";
 import type { Traces } from "../src/engine.js";
 import { changed, type Values } from "../src/paper.js";
@@ -21,14 +22,17 @@ interface Case {
   traces: Record<keyof Traces, number[]>;
   alone: Record<keyof Traces, number[]>;
   rows: Row[];
+  jerk: number; // m/s3
 }
 
 const cases: Case[] = JSON.parse(readFileSync(process.env["COMPARISONS"]!, "utf8"));
 // Of what may differ between theory and run, so that no verdict hangs on it; the fits stop at rounding.
 const SHARE = 0.01;
+const CLEAR = 0.15; // 1/s: the swing changes by a quarter from third to third, more than its samples may hide
 
 function columns(traces: Case["traces"]): Traces {
-  return Object.fromEntries(Object.entries(traces).map(([name, values]) => [name, Float64Array.from(values)])) as Traces;
+  const found = Object.entries(traces).map(([name, values]) => [name, Float64Array.from(values)]);
+  return Object.fromEntries(found) as Traces;
 }
 
 function near(found: number, expected: number | null, allowed: number | null, what: string): void {
@@ -39,7 +43,7 @@ function near(found: number, expected: number | null, allowed: number | null, wh
   }
 }
 
-for (const { values, traces, alone, rows } of cases) {
+for (const { values, traces, alone, rows, jerk } of cases) {
   const name = changed(values).map((key) => `${key}=${values[key]}`).join(", ") || "figure 8";
   test(name, () => {
     const found = compare(values, columns(traces), columns(alone));
@@ -55,6 +59,12 @@ for (const { values, traces, alone, rows } of cases) {
       near(one.theory, row.theory, row.allowed, `theory's ${row.quantity}`);
       near(one.run, row.run, row.allowed, `the run's ${row.quantity}`);
       assert.deepEqual([row.quantity, one.notJudged, verdict(one)], [row.quantity, row.notJudged, row.verdict]);
+    }
+    const shown = cell(columns(traces), values["eps"]!);
+    assert(Math.abs(shown.jerk - jerk) <= 1e-9 * jerk, `the map's jerk: ${shown.jerk} instead of ${jerk}`);
+    const { run } = rows.find(({ quantity }) => quantity === "shunting growth")!;
+    if (run !== null && Math.abs(run) > CLEAR) {
+      assert.equal(Math.sign(shown.growth), Math.sign(run), `the map's growth: ${shown.growth}, of a fit ${run}`);
     }
     const damping = found.find(({ quantity }) => quantity === "damping ratio")!;
     assert.equal(verdict(damping), rows[0]!.verdict);

@@ -3,7 +3,11 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { brake, type Traces } from "../src/engine.js";
+import { cell } from "../src/cell.js";
+import { compare } from "../src/comparison.js";
+import { brake, brakeAlone, type Traces } from "../src/engine.js";
+import { SPANS } from "../src/knobs.js";
+import { PAPER } from "../src/paper.js";
 import { Unit, type Description } from "../src/unit.js";
 
 interface Run {
@@ -67,4 +71,29 @@ test("fifty values of a slider", () => {
   const each = (performance.now() - begin) / 50;
   console.log(`${each.toFixed(2)} ms a run`);
   assert(each < FRAME);
+});
+
+test("whatever the unit runs, is judged, and is drawn on the map", () => {
+  let seed = 20261129;
+  const random = (): number => (seed = (seed * 48271) % 2147483647) / 2147483647; // Park and Miller 1988
+  let judged = 0;
+  for (let i = 0; i < 300; i++) {
+    const values = { ...PAPER.datum };
+    for (const [name, { to }] of Object.entries(SPANS)) {
+      if (random() < 0.5) {
+        values[name] = random() < 0.2 ? 0 : to * 10 ** (4 * random() - 3);
+      }
+    }
+    try {
+      const traces = brake(unit, values);
+      const rows = compare(values, traces, brakeAlone(unit, values));
+      assert(rows.every((row) => row.notJudged || Number.isFinite(row.theory)), JSON.stringify(values));
+      assert.equal(typeof cell(traces, values["eps"]!).leaves, "boolean");
+      judged++;
+    } catch (error) {
+      assert.match(String(error), /^UnitError: |^RangeError: V_0 = /, JSON.stringify(values));
+    }
+  }
+  console.log(`${judged} of 300 random step brakes judged`);
+  assert(judged > 100);
 });

@@ -69,7 +69,7 @@ test("figures and cases, by the list of presets", async () => {
       await download(page, "csv", `${word} ${name}.csv`);
       await download(page, "toml", `${word} ${name}.toml`);
       shown[`${word} ${name}`] = {
-        rows: await page.$$eval("#numbers tr", (rows) => rows.map((row) => [...row.children].map((cell) => cell.textContent))),
+        rows: await page.$$eval("#numbers tr", (rows) => rows.map((row) => row.textContent)),
         reasons: await page.textContent("#reasons"),
         python: await page.textContent("#python"),
         link: await page.evaluate(() => location.hash),
@@ -82,6 +82,7 @@ test("figures and cases, by the list of presets", async () => {
 
 test("fifty values of a slider, and the map: how long they take", async () => {
   const page = await opened();
+  await mapped(page);
   const each = await page.evaluate(async () => {
     const slider = document.querySelector<HTMLInputElement>("#knobs input[type=range]")!;
     const begin = performance.now();
@@ -101,7 +102,7 @@ test("fifty values of a slider, and the map: how long they take", async () => {
   await page.reload();
   const paint = await page.waitForFunction(() => performance.getEntriesByName("first-contentful-paint")[0]?.startTime);
   const first = (await paint.jsonValue()) as number;
-  console.log(`${each.toFixed(2)} ms a value of the slider, ${map} ms a map, first picture after ${first.toFixed(0)} ms`);
+  console.log(`${each.toFixed(1)} ms a value of the slider, ${map} ms a map, first picture in ${first.toFixed(0)} ms`);
 });
 
 const WRONG = ["much", "", "  ", "1,5", "5 kN", "-1", "1e300", "NaN", "Infinity", "<img src=x onerror=alert(1)>"];
@@ -114,13 +115,14 @@ test("a wrong value says what is allowed, and nothing is lost", async () => {
       await page.fill(`#knob-${name}`, text);
       const message = (await page.textContent(`#told-${name}`))!;
       // An input has no upper end; what is too much for a step the unit says in other words.
-      const words = text === "1e300" && name === "brake_torque" ? "^no step" : `^${name} = .* is not allowed: its range is .* to .*`;
-      assert.match(message, new RegExp(words), `${name}: ${text}`);
+      const words = `${name} = .* is not allowed: its range is .* to .*`;
+      const is = text === "1e300" && name === "brake_torque" ? "no step can be made" : words;
+      assert.match(message, new RegExp(`^${is}`), `${name}: ${text}`);
       assert.equal(await page.getAttribute(`#knob-${name}`, "aria-invalid"), "true");
     }
   }
   await page.fill("#knob-V_0", "-1");
-  assert.match((await page.textContent("#told-V_0"))!, /^V_0 = -1 m\/s is not allowed: a step brake starts at 0\.1 m\/s/);
+  assert.match((await page.textContent("#told-V_0"))!, /^V_0 = -1 m\/s is not allowed: .* starts at 0\.1 m\/s/);
   assert.equal(await page.inputValue("#knob-k"), WRONG.at(-1));
   await quiet(page);
   assert.equal(await page.evaluate(() => location.hash), before);
@@ -138,7 +140,7 @@ test("links lead to the state that they tell, whatever else is in them", async (
   const page = await opened();
   for (const [link, expected] of [
     ["C=20&k_t=5480&M_t=750.5&x=eps&y=M_t&show=jerk", "#M_t=750.5&k_t=5480&C=20&x=eps&y=M_t&show=jerk"],
-    ["C_kt=160000&mu=0.81&sigma=0.25&brake_torque=800", "#C_kt=160000&mu=0.81&sigma=0.25&brake_torque=800&x=C&y=V_0&show=growth"],
+    ["C_kt=160000&mu=0.81&brake_torque=800", "#C_kt=160000&mu=0.81&brake_torque=800&x=C&y=V_0&show=growth"],
     [`C=${hostile}&eps=0.05&${hostile}=1&x=${hostile}&y=C&show=${hostile}`, "#eps=0.05&x=C&y=V_0&show=growth"],
     ["C=-5&V_0=nan&mu=nought&constructor=1&__proto__=2&x=__proto__", "#x=C&y=V_0&show=growth"],
     ["", "#x=C&y=V_0&show=growth"],
@@ -169,9 +171,10 @@ test("the keyboard alone turns a knob, and walks on the map", async () => {
   const visited = new Set<string>();
   for (let i = 0; i < 60; i++) {
     await page.keyboard.press("Tab");
-    visited.add(await page.evaluate(() => document.activeElement!.id || document.activeElement!.outerHTML.slice(0, 40)));
+    visited.add(await page.evaluate(() => document.activeElement!.id));
   }
-  for (const id of ["preset", ...Object.keys(SPANS).map((name) => `knob-${name}`), "play", "time", "csv", "svg", "toml", "map", "x"]) {
+  const fields = Object.keys(SPANS).map((name) => `knob-${name}`);
+  for (const id of ["preset", ...fields, "play", "time", "csv", "svg", "toml", "map", "x", "y", "show", "slowness"]) {
     assert(visited.has(id), `Tab does not reach ${id}`);
   }
   await page.focus("#knobs input[type=range]");
@@ -212,8 +215,8 @@ for (const [name, options] of Object.entries({
     await mapped(page);
     await page.click("summary");
     await page.addScriptTag({ content: axe });
-    const { violations } = await page.evaluate(() => (globalThis as unknown as { axe: { run(): Promise<any> } }).axe.run());
-    assert.deepEqual(violations.map(({ id, nodes }: any) => [id, nodes.map(({ html }: any) => html.slice(0, 100))]), []);
+    const { violations } = await page.evaluate(() => (globalThis as any).axe.run());
+    assert.deepEqual(violations.map(({ id, nodes }: any) => [id, ...nodes.map(({ html }: any) => html)]), []);
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), options.viewport!.width);
     await page.screenshot({ path: join(out, `${name}.png`), fullPage: true });
   });
