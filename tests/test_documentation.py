@@ -23,7 +23,9 @@ from tests.sampling import sampled
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 IN_BRIEF = [ROOT / "docs" / "model.md", ROOT / "docs" / "sweep.md", ROOT / "README.md"]  # the others are `full`
 COMMANDS = {"hitch": ["-m", "overrun_hitch"], "make": ["-m", "overrun_hitch"], "python": []}  # make run: hitch run
-MADE = ("commands.md", "live/index.html", "first-run.svg", "four-dampers.svg")  # when the site is built
+NOTEBOOKS = sorted((ROOT / "docs").glob("*.ipynb"))
+PICTURES = ("first-run.svg", "four-dampers.svg")
+MADE = ("commands.md", "live/index.html", *PICTURES, *(f"{path.stem}.md" for path in NOTEBOOKS))  # with the site
 CONSOLE = re.compile(r"^```console\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 TOML = re.compile(r"^```toml\n# (\S+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
@@ -70,6 +72,25 @@ def test_commands(page: Path, tmp_path: Path) -> None:
         assert is_shown, f"$ {command}\n{told}"
 
 
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=named)
+def test_notebooks_are_kept_without_results(notebook: Path) -> None:
+    cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
+    code = [cell for cell in cells if cell["cell_type"] == "code"]
+    assert len(code) > 3 and not [cell for cell in code if cell["outputs"] or cell["execution_count"]]
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=named)
+def test_notebooks_run(notebook: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    known: dict[str, object] = {}
+    for cell in json.loads(notebook.read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] == "code":
+            exec("".join(cell["source"]), known)
+    assert "hitch" in known
+
+
 @pytest.mark.parametrize("page", [*PAGES, *(ROOT / name for name in FROM_ELSEWHERE)], ids=named)
 def test_links_lead_somewhere(page: Path) -> None:
     links = LINK.findall(page.read_text(encoding="utf-8"))
@@ -94,6 +115,19 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     done = subprocess.run(build, cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     return folder
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=named)
+def test_a_notebook_is_a_page_with_pictures_and_can_be_had(site: Path, notebook: Path) -> None:
+    page = (site / notebook.with_suffix(".html").name).read_text(encoding="utf-8")
+    pictures = re.findall(rf'src="({notebook.stem}_files/[^"]+\.svg)"', page)
+    assert len(pictures) >= 3 and all((site / picture).read_bytes().startswith(b"<?xml") for picture in pictures)
+    assert (
+        f'href="{notebook.name}"' in page and "<table" in page and "<script type=" not in page.partition("<article")[2]
+    )
+    offered = json.loads((site / notebook.name).read_text(encoding="utf-8"))
+    assert [cell for cell in offered["cells"] if cell.get("outputs")]
 
 
 LOADED = re.compile(

@@ -47,13 +47,20 @@ STYLE: dict[Any, Any] = {
 KINDS: dict[str, dict[str, Any]] = {"png": {"dpi": 200}, "svg": {"metadata": {"Date": None}}}
 
 
+class Traces(Figure):
+    """A figure that a notebook shows, without asking whether pyplot has been set up."""
+
+    def _repr_svg_(self) -> str:
+        return rendered(self, "svg").decode()
+
+
 def draw(run: xr.Dataset) -> Figure:
     """The three panels of a step brake (see results.dataset), with theory's steady values as thin dotted lines."""
     scenario = scenario_of(run)
     is_step = not run.attrs.get("profile")
     theory = _theory(scenario) if is_step and not run.attrs.get("grade") else None
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(WIDTH, 6.2), layout="constrained")
+        figure = Traces(figsize=(WIDTH, 6.2), layout="constrained")
         figure.suptitle(_title(scenario, is_step), fontsize=10)
         accelerations, compression, slips = figure.subplots(3, 1, sharex=True)
         time = values(run, "time")

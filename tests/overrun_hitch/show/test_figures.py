@@ -24,6 +24,12 @@ def test_five_traces_with_units(oracle_run: OracleRun) -> None:
     assert len(traces) == 5
 
 
+def test_a_notebook_shows_them(oracle_run: OracleRun) -> None:
+    """Jupyter asks for this method (IPython, Integrating your objects)."""
+    picture = draw(oracle_run(FIGURES["8"]))
+    assert picture._repr_svg_().startswith("<?xml") and "<svg" in picture._repr_svg_()  # type: ignore[attr-defined]
+
+
 def told(axes: Axes) -> list[str]:
     return [text.get_text() for text in axes.texts]
 
