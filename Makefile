@@ -1,5 +1,5 @@
 .DEFAULT_GOAL := help
-.PHONY: help run report docs test test-all test-platforms fuzz fmu fmu-all ssp web dist bench stops sanitize lint format lock clean
+.PHONY: help run report docs test test-all test-platforms fuzz fmu fmu-all ssp web dist release bench stops sanitize lint format lock clean
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -62,8 +62,18 @@ $(WEB): web/package-lock.json
 	cd web && npm ci --no-fund --no-audit
 	touch $@
 
-dist: $(READY) $(DIST)  ## make the wheel, with the FMUs for all systems in it (dist; minutes, the first time)
-	$(BIN)/hatchling build -t wheel
+dist: $(READY) $(DIST)  ## make wheel and sources, with the FMUs for all systems in them (dist; minutes, the first time)
+	rm -rf dist
+	$(BIN)/hatchling build
+
+release: dist docs  ## make wheel, sources, FMUs and site, check them, and put them into one folder (build/release)
+	$(BIN)/python -m pytest -m "full or platforms" tests/test_release.py tests/platforms/test_wheel.py
+	rm -rf build/release
+	mkdir -p build/release
+	cp dist/* build/release
+	cp -r $(READY_MADE) build/release/fmus
+	cp -r build/site build/release/site
+	@echo "build/release is ready: CONTRIBUTING.md says what is left to do"
 
 $(READY_MADE)/fmi2/%.fmu: $(SOURCES)
 	$(BUILD).$* -o $@ --fmi 2 --platforms all
