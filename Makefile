@@ -1,5 +1,5 @@
 .DEFAULT_GOAL := help
-.PHONY: help run report docs test test-all test-platforms fuzz fmu fmu-all ssp web dist bench stops sanitize lint format lock clean
+.PHONY: help run report docs test test-all test-platforms fuzz fmu fmu-all ssp web dist release bench stops sanitize lint format lock clean
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -70,11 +70,20 @@ $(WEB): web/package-lock.json
 	cd web && npm ci --no-fund --no-audit
 	touch $@
 
-dist: $(READY) $(DIST)  ## make the wheel, with the FMUs for all systems and the live page in it (dist; minutes, the first time)
-	rm -rf $(READY_MADE)/live
+dist: $(READY) $(DIST)  ## make wheel and sources, with the FMUs for all systems and the live page in them (dist; minutes, the first time)
+	rm -rf dist $(READY_MADE)/live
 	$(if $(NPM),-$(MAKE) --no-print-directory $(READY_MADE)/live/index.html)
 	@test -d $(READY_MADE)/live || echo "without the live page: make web makes it, where npm is and gets its packages"
-	$(BIN)/hatchling build -t wheel
+	$(BIN)/hatchling build
+
+release: dist docs  ## make wheel, sources, FMUs and site, check them, and put them into one folder (build/release)
+	$(BIN)/python -m pytest -m "full or platforms" tests/test_release.py tests/platforms/test_wheel.py
+	rm -rf build/release
+	mkdir -p build/release
+	cp dist/* build/release
+	cp -r $(READY_MADE) build/release/fmus
+	cp -r build/site build/release/site
+	@echo "build/release is ready: CONTRIBUTING.md says what is left to do"
 
 $(READY_MADE)/fmi2/%.fmu: $(SOURCES)
 	$(BUILD).$* -o $@ --fmi 2 --platforms all

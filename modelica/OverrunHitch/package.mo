@@ -1,7 +1,7 @@
 within ;
 package OverrunHitch "Car and trailer with an overrun brake, after R. S. Sharp (1982)"
   annotation(
-    version="0.1.0",
+    version="0.2.0",
     __fmu_build(author="The OverrunHitch authors", copyright="Copyright (c) 2026 The OverrunHitch authors", license="MIT"),
     Icon(coordinateSystem(extent={{-100,-100},{100,100}}), graphics={
       Rectangle(extent={{-100,100},{100,-100}}, lineColor={60,60,60}, fillColor={248,248,248}, fillPattern=FillPattern.Solid, radius=10),

@@ -16,9 +16,11 @@ from overrun_hitch.parameters import FIGURES, HitchError, Parameters, Scenario, 
 from overrun_hitch.scenarios import asked_scenario, name_with
 
 if TYPE_CHECKING:
+    import numpy as np
     import pandas as pd
     import xarray as xr
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
 
     from overrun_hitch.experiments.torque import Torque
     from overrun_hitch.fitting.fit import Fit
@@ -26,10 +28,12 @@ if TYPE_CHECKING:
     from overrun_hitch.sweeps.job import Progress
     from overrun_hitch.sweeps.spec import SweepSpec
 
-    Numbers = Sequence[float]
+    Floats = NDArray[np.float64]
+    Numbers = Sequence[float] | Floats
     Profile = Mapping[str, Numbers] | str | Path
 
 TIME_LIMIT = 60.0  # s
+MOST_WORKERS = 1000
 
 
 def fmu_path(name: str = "CarTrailer", fmi: int = 2) -> Path:
@@ -49,7 +53,7 @@ def fmu_path(name: str = "CarTrailer", fmi: int = 2) -> Path:
 
 
 def run(
-    figure: str | None = None,
+    figure: str | int | None = None,
     case: str | None = None,
     *,
     fmu: str | Path | None = None,
@@ -94,8 +98,6 @@ def run(
 
 
 def _torque(profile: Profile | None) -> Torque | None:
-    import numpy as np
-
     from overrun_hitch.comparison.sources import read_profile
     from overrun_hitch.experiments.torque import Torque
 
@@ -104,17 +106,30 @@ def _torque(profile: Profile | None) -> Torque | None:
     missing = [name for name in ("time", "brake_torque") if name not in profile]
     if missing:
         raise HitchError(f"the profile has no {missing[0]}; needed: time (s) and brake_torque (N.m)")
-    time, torque = (np.asarray(profile[name], dtype=np.float64) for name in ("time", "brake_torque"))
-    return Torque(time, torque)
+    return Torque(*(_numbers(name, profile[name]) for name in ("time", "brake_torque")))
+
+
+def _numbers(name: str, values: object) -> Floats:
+    """(n,), of a number too. HitchError for what is none."""
+    import numpy as np
+
+    try:
+        return np.atleast_1d(np.asarray(values, dtype=np.float64))
+    except (TypeError, ValueError):
+        raise HitchError(f"{name} = {values!r:.40} is not allowed: a number is, or several") from None
+
+
+def _names(names: str | Sequence[str]) -> list[str]:
+    return [names] if isinstance(names, str) else list(names)
 
 
 def run_many(
-    varied: Mapping[str, Numbers],
-    figure: str | None = None,
+    varied: Mapping[str, float | Numbers],
+    figure: str | int | None = None,
     case: str | None = None,
     *,
-    outputs: Sequence[str] = ("compression",),
-    metrics: Sequence[str] = (),
+    outputs: str | Sequence[str] = ("compression",),
+    metrics: str | Sequence[str] = (),
     fmu: str | Path | None = None,
     workers: int | None = None,
     duration: float | None = None,
@@ -146,9 +161,11 @@ def run_many(
     from overrun_hitch.sweeps.spec import SweepSpec
 
     base = _base(varied, asked_scenario(figure, case, parameters, duration=duration), parameters)
-    grid = {name: [float(value) for value in values] for name, values in varied.items()}
+    grid = {name: _numbers(name, values).tolist() for name, values in varied.items()}
+    if workers is not None and not 0 <= workers <= MOST_WORKERS:
+        raise HitchError(f"workers = {workers} is not allowed; allowed: 0 to {MOST_WORKERS} processes")
     spec = SweepSpec(
-        name="many runs", grid=grid, parameters=base, trajectories=list(outputs), metrics=list(metrics),
+        name="many runs", grid=grid, parameters=base, trajectories=_names(outputs), metrics=_names(metrics),
         **({} if duration is None else {"duration": duration}), communication_step=communication_step,
         relative_tolerance=relative_tolerance,
     )  # fmt: skip
@@ -161,7 +178,7 @@ def run_many(
         return run_in_memory(plan, file, time_limit, count, told)
 
 
-def _base(varied: Mapping[str, Numbers], scenario: Scenario, given: Mapping[str, float]) -> dict[str, float]:
+def _base(varied: Mapping[str, float | Numbers], scenario: Scenario, given: Mapping[str, float]) -> dict[str, float]:
     """The parameters that stay the same. HitchError where one does not."""
     twice = [name for name in given if name in varied]
     if twice:
@@ -185,9 +202,10 @@ def compare(result: xr.Dataset, *, fmu: str | Path | None = None, time_limit: fl
     from overrun_hitch.experiments.step_brake import car_alone, step_brake
     from overrun_hitch.results import scenario_of
 
+    scenario = scenario_of(result)
     profile = result.attrs["profile"]
     alone = step_brake(
-        car_alone(scenario_of(result)),
+        car_alone(scenario),
         fmu=fmu_path() if fmu is None else Path(fmu),
         relative_tolerance=float(result.attrs["relative_tolerance"]),
         communication_step=float(result.attrs["communication_step"]),
@@ -204,7 +222,7 @@ def compare(result: xr.Dataset, *, fmu: str | Path | None = None, time_limit: fl
 
 def crosscheck(
     files: Sequence[str | Path],
-    figures: Sequence[str] = tuple(FIGURES),
+    figures: str | Sequence[str] = tuple(FIGURES),
     *,
     maps: Mapping[str, str | Path] | None = None,
     measured: bool = False,
@@ -237,7 +255,9 @@ def crosscheck(
     asked = [
         Asked(fmu_path() if Path(file) == OURS else Path(file), names.get(str(file), NO_NAMES), None) for file in files
     ]
-    scenarios = [asked_scenario(n, None, parameters, duration=duration, brake_torque=brake_torque) for n in figures]
+    scenarios = [
+        asked_scenario(n, None, parameters, duration=duration, brake_torque=brake_torque) for n in _names(figures)
+    ]
     manoeuvres = [Manoeuvre(scenario, Settings(), _torque(profile)) for scenario in scenarios]
     allowed = Allowed(funnel=funnel, funnel_time=funnel_time)
     with opened_sources(asked, time_limit) as sources:
@@ -272,7 +292,7 @@ def stability(
     from overrun_hitch.parameters import CASES, DATUM
 
     start: Parameters = DATUM if case is None else named("case", case, CASES)
-    speeds, dampers = (np.atleast_1d(np.asarray(values, dtype=np.float64)) for values in (V, C))
+    speeds, dampers = _numbers("V", V), _numbers("C", C)
     name = name_with("datum" if case is None else f"case {case}", start, start.changed(parameters))
     study = analyse(name, start.changed(parameters), dampers.tolist(), speeds.tolist(), deceleration)
     names = ("growth_rate", "frequency", "damping_ratio", "amplitude_ratio", "phase")
@@ -286,7 +306,7 @@ def stability(
 
 def fit(
     trace: Trace | Mapping[Any, Any] | pd.DataFrame | str | Path,
-    names: Sequence[str] | None = None,
+    names: str | Sequence[str] | None = None,
     *,
     columns: Mapping[str, str] | None = None,
     units: Mapping[str, str] | None = None,
@@ -306,8 +326,6 @@ def fit(
     >>> {each.name: round(each.value / 10) * 10 for each in found.estimates}
     {'k': 5480, 'C': 300}
     """
-    import numpy as np
-
     from overrun_hitch.fitting.columns import read_trace
     from overrun_hitch.fitting.fit import fit as search
     from overrun_hitch.fitting.trace import UNITS, Trace
@@ -319,8 +337,9 @@ def fit(
         missing = [name for name in ("time", "compression", "F_hitch") if name not in trace]
         if missing:
             raise HitchError(f"the trace has no {missing[0]}; allowed: {', '.join(UNITS)}")
-        trace = Trace(**{name: np.asarray(trace[name], dtype=np.float64) for name in UNITS if name in trace})
-    return search(trace, DATUM.changed(parameters), names, fmu_path("Bench") if fmu is None else Path(fmu))
+        trace = Trace(**{name: _numbers(name, trace[name]) for name in UNITS if name in trace})
+    wanted = None if names is None else _names(names)
+    return search(trace, DATUM.changed(parameters), wanted, fmu_path("Bench") if fmu is None else Path(fmu))
 
 
 def plot(result: xr.Dataset) -> Figure:

@@ -135,7 +135,7 @@ def with_unit(value: float, unit: str) -> str:
 def unknown(kind: str, name: str, names: Iterable[str]) -> str:
     """One line saying that there is no such `kind`, which was hardly meant otherwise, and which are allowed."""
     allowed = list(names)
-    close = _alike(name, allowed)
+    close = _alike(str(name), allowed)
     meant = f" did you mean {' or '.join(close)}?" if close else ""
     return f"there is no {kind} {name!r:.40};{meant} allowed: {', '.join(allowed)}"
 

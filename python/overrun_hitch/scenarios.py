@@ -9,7 +9,7 @@ from overrun_hitch.parameters import CASES, FIGURES, HitchError, Parameters, Sce
 
 
 def asked_scenario(
-    figure: str | None, case: str | None, changes: Mapping[str, Any], **settings: float | None
+    figure: str | int | None, case: str | None, changes: Mapping[str, Any], **settings: float | None
 ) -> Scenario:
     """The step brake of the figure (8 unless said otherwise), or figure 8 with the case's parameters, and `changes`.
 
@@ -18,13 +18,12 @@ def asked_scenario(
     """
     if figure is not None and case is not None:
         raise HitchError("figure and case exclude each other: a case is figure 8 with that case's parameters")
-    scenario: Scenario = named("figure", "8" if figure is None else figure, FIGURES)
+    scenario: Scenario = named("figure", "8" if figure is None else str(figure), FIGURES)
     if case is not None:
         scenario = scenario.changed(name=f"case {case}", parameters=named("case", case, CASES))
     given = {name: value for name, value in settings.items() if value is not None}
-    parameters = scenario.parameters.changed(changes)
-    name = name_with(scenario.name, scenario.parameters, parameters, given)
-    return scenario.changed(name=name, parameters=parameters, **given)
+    changed = scenario.changed(parameters=scenario.parameters.changed(changes), **given)
+    return changed.changed(name=name_with(scenario.name, scenario.parameters, changed.parameters, given))
 
 
 def name_with(name: str, before: Parameters, after: Parameters, others: Mapping[str, float] | None = None) -> str:

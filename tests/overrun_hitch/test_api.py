@@ -10,6 +10,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+import xarray as xr
 from fmpy.fmi2 import FMU2Slave
 
 import overrun_hitch as hitch
@@ -105,6 +106,20 @@ def test_where_our_fmus_are(name: str, fmi: int) -> None:
         (lambda: hitch.run_many({"C": []}), "C"),
         (lambda: hitch.run_many({"C": [1]}, outputs=["speed"]), "no variable 'speed'"),
         (lambda: hitch.run_many({"C": [1]}, C=2), "C is varied and given"),
+        (lambda: hitch.run_many({"C": ["soft"]}), "C = ['soft'] is not allowed: a number is, or several"),
+        (lambda: hitch.run_many({"C": 1.0}, workers=-1), "workers = -1 is not allowed; allowed: 0 to 1000"),
+        (lambda: hitch.run(duration="long"), "duration = 'long' is not allowed"),
+        (lambda: hitch.run(grade="steep"), "grade = 'steep' is not allowed: rise of the road over its run must be"),
+        (lambda: hitch.run(profile={"time": ["a"], "brake_torque": [1]}), "time = ['a'] is not allowed"),
+        (lambda: hitch.run(profile={"time": [0, 1], "brake_torque": [1]}), "time has shape (2,), brake_torque (1,)"),
+        (lambda: hitch.run(profile={"time": [0, np.nan], "brake_torque": [1, 2]}), "not finite"),
+        (lambda: hitch.run(12), "no figure '12'"),
+        (lambda: hitch.compare(xr.Dataset()), "does not say what was run"),
+        (lambda: hitch.plot(xr.Dataset()), "does not say what was run"),
+        (lambda: hitch.fit({"time": [1, 2]}), "the trace has no compression"),
+        (lambda: hitch.fit("nowhere.csv"), "nowhere.csv"),
+        (lambda: hitch.stability(V="fast"), "V = 'fast' is not allowed"),
+        (lambda: hitch.stability(2), "no case"),
         (lambda: hitch.stability("x"), "no case 'x'"),
         (lambda: hitch.stability(CdA_c=1.0), "CdA_c"),
         (lambda: hitch.sweep("nowhere.toml", "store"), "nowhere.toml"),
@@ -160,6 +175,12 @@ def test_what_is_asked_for_beside_makes_no_difference() -> None:
     for name in ("compression", "F_hitch", "v_car"):
         assert whole[name].identical(hitch.run_many({"C": C}, outputs=[name])[name])
     assert whole["peak_jerk"].identical(hitch.run_many({"C": C}, outputs=[], metrics=["peak_jerk"])["peak_jerk"])
+
+
+def test_one_may_stand_for_several() -> None:
+    """A name for a list of names, a number for a list of numbers, an array for either, 8 for "8"."""
+    many = hitch.run_many({"C": 100.0, "eps": np.array([0.0, 0.1])}, 8, outputs="a_car", metrics="peak_jerk")
+    assert many.identical(hitch.run_many({"C": [100.0], "eps": [0.0, 0.1]}, outputs=["a_car"], metrics=["peak_jerk"]))
 
 
 @pytest.mark.parametrize("workers", [1, 2])

@@ -7,6 +7,7 @@ import sys
 import zipfile
 from pathlib import Path
 
+import fmpy.validation
 import pytest
 
 ROOT = Path(__file__).parents[2]
@@ -28,6 +29,14 @@ def test_it_brings_the_fmus_for_all_systems(wheel: Path) -> None:
             assert f"overrun_hitch/fmus/fmi3/{name}.fmu" in archive.namelist()
             with archive.open(f"overrun_hitch/fmus/fmi2/{name}.fmu") as fmu, zipfile.ZipFile(fmu) as unit:
                 assert {f"binaries/{file.format(name)}" for file in LIBRARIES} <= set(unit.namelist())
+
+
+def test_fmpy_finds_nothing_in_the_fmus(wheel: Path, tmp_path: Path) -> None:
+    with zipfile.ZipFile(wheel) as archive:
+        archive.extractall(tmp_path)
+    fmus = sorted(tmp_path.rglob("*.fmu"))
+    assert len(fmus) == 10
+    assert {str(fmu): found for fmu in fmus if (found := fmpy.validation.validate_fmu(str(fmu)))} == {}
 
 
 def test_installed_in_an_empty_environment_it_runs(wheel: Path, tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ import json
 import math
 from importlib.metadata import version
 from itertools import pairwise
+from numbers import Real
 from pathlib import Path
 
 import numpy as np
@@ -112,9 +113,10 @@ def _communication_points(scenario: Scenario, h: float) -> Floats:
 
 
 def _checked_grade(grade: float) -> float:
-    if not abs(grade) <= STEEPEST:
+    if not (isinstance(grade, Real) and abs(grade) <= STEEPEST):
+        shown = f"{grade:g}" if isinstance(grade, Real) else f"{grade!r:.40}"
         raise HitchError(
-            f"grade = {grade:g} is not allowed: rise of the road over its run must be a finite number, at least "
+            f"grade = {shown} is not allowed: rise of the road over its run must be a finite number, at least "
             f"{-STEEPEST:g}, at most {STEEPEST:g}"
         )
     return grade

@@ -23,6 +23,11 @@ class Torque:
     values: Floats
 
     def __post_init__(self) -> None:
+        if self.time.ndim != 1 or self.time.shape != self.values.shape:
+            shapes = f"time has shape {self.time.shape}, brake_torque {self.values.shape}"
+            raise HitchError(f"the profile's {shapes}; allowed: (n,), the same for both")
+        if not (np.isfinite(self.time).all() and np.isfinite(self.values).all()):
+            raise HitchError("the profile has a time or a brake_torque that is not finite; allowed: finite numbers")
         if not self.time.size or (np.diff(self.time) < 0.0).any():
             raise HitchError("the profile's time must not decrease, from one knot on")
         if (self.values < 0.0).any():
