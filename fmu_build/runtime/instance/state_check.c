@@ -9,7 +9,7 @@
 #include "validation.h"
 
 typedef struct {
-    char name[32];       /* not elsewhere: a pointer would have to be relocated */
+    char name[40];       /* not elsewhere: a pointer would have to be relocated */
     size_t offset, size; /* in bytes */
 } Field;
 
