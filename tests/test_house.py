@@ -78,6 +78,22 @@ def test_c_files_lie_side_by_side_in_an_fmu() -> None:
     assert len(names) == len(set(names))
 
 
+def test_the_page_imports_downwards() -> None:
+    """Along the staircase in CONTRIBUTING.md, which names every module of web/src."""
+    staircase = re.search(r"web/src/ +(.*?)\(", (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"), re.DOTALL)
+    assert staircase
+    floors = [re.findall(r"\w+", floor) for floor in reversed(staircase[1].split(">"))]
+    height = {module: n for n, floor in enumerate(floors) for module in floor}
+    files = [file for file in (ROOT / "web" / "src").glob("*.ts") if file.name != "files.d.ts"]
+    imports = [
+        (file.stem, other)
+        for file in files
+        for other in re.findall(r'from "\./(\w+)\.js"', file.read_text(encoding="utf-8"))
+    ]
+    assert {file.stem for file in files} == height.keys() and len(imports) > 20
+    assert [(one, other) for one, other in imports if height[other] >= height[one]] == []
+
+
 def folders(package: str) -> list[str]:
     graph = grimp.build_graph(package, cache_dir=None)
     return sorted(module for module in graph.modules if graph.find_children(module) and module != package)

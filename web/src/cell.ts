@@ -42,5 +42,7 @@ export function cell({ time, compression, a_car }: Traces, eps: number): Cell {
       jerk = Math.max(jerk, Math.abs(a_car[i]! - a_car[i - 1]!) / STEP);
     }
   }
-  return { growth: Math.log(swing(2 * third) / swing(third)) / (third * STEP), jerk, leaves };
+  const swings = [swing(0), swing(third), swing(2 * third)] as const;
+  const [before, after] = swings[1] > LEAST ? [swings[1], swings[2]] : [swings[0], swings[1]]; // it died out early
+  return { growth: Math.log(after / before) / (third * STEP), jerk, leaves };
 }

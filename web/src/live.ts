@@ -57,7 +57,8 @@ function take(values: Values): void {
   place("alert").textContent = attempt(values, true);
 }
 
-const later = settled(() => {
+/** What takes more than a frame, or is heard: link, words, numbers, map. */
+function finish(): void {
   history.replaceState(null, "", link(state));
   place("python").textContent = python(state.values);
   const others = changed(state.values).filter((name) => !(name in SPANS));
@@ -66,7 +67,8 @@ const later = settled(() => {
   place("others").parentElement!.hidden = told.length === 0;
   numbers();
   map(state);
-}, QUIET);
+}
+const later = settled(finish, QUIET);
 
 function numbers(): void {
   const rows = compare(state.values, shown.traces, brakeAlone(unit, state.values));
@@ -125,6 +127,7 @@ function follow(): void {
   for (const key of ["x", "y", "show"] as const) {
     place<HTMLSelectElement>(key).value = state[key];
   }
+  finish();
 }
 
 for (const axis of ["x", "y"] as const) {

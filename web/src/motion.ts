@@ -71,8 +71,9 @@ function draw(traces: Traces, eps: number, time: number): void {
   set("seat", "x", end - 3);
   set("gap", "x", end);
   set("gap", "width", Math.max(0, PLUNGER - end));
-  set("ruler", "width", ruler(most) * scale);
-  place("ruler-length").textContent = `${ruler(most) * 1000} mm of the drawbar`;
+  const ruler = 10 ** Math.floor(Math.log10(most)); // m
+  set("ruler", "width", ruler * scale);
+  place("ruler-length").textContent = `${ruler * 1000} mm of the drawbar`;
   set("road", "stroke-dashoffset", distance(traces, i) * ROAD);
   const torque = Math.max(...traces.trailer_brake_torque) || 1;
   set("trailer-brake", "opacity", Math.max(0, traces.trailer_brake_torque[i]! / torque));
@@ -80,11 +81,6 @@ function draw(traces: Traces, eps: number, time: number): void {
 
 function set(id: string, attribute: string, value: string | number): void {
   place(id).setAttribute(attribute, String(value));
-}
-
-/** A length that is easily said, in m. */
-function ruler(most: number): number {
-  return 10 ** Math.floor(Math.log10(most));
 }
 
 function coil(from: number, to: number): string {

@@ -6,7 +6,8 @@
 import { Matrix, solve } from "ml-matrix";
 
 const FEWEST_PERIODS = 2;
-const FEWEST_SAMPLES = 16;
+const FEWEST_A_PERIOD = 4; // samples
+const FEWEST_SAMPLES = 2 * FEWEST_PERIODS * FEWEST_A_PERIOD;
 const FADED = Math.log(1e6); // what has faded so far is over
 const FITS = 0.05; // what a fit may leave, relative
 const STRIDES = [1, 2, 4, 8, 16, 32, 64];
@@ -27,7 +28,7 @@ export interface Oscillation {
 
 /** The oscillation in `trace`, sampled evenly at `time` in s, or why there is none. */
 export function measure(time: Numbers, trace: Numbers): Oscillation | string {
-  const swing = range(trace);
+  const swing = Math.max(...trace) - Math.min(...trace);
   const largest = Math.max(...trace.map(Math.abs));
   if (time.length < FEWEST_SAMPLES || !(swing > 1e-9 * largest)) {
     return time.length < FEWEST_SAMPLES ? `only ${time.length} samples` : "the trace is constant";
@@ -47,6 +48,9 @@ export function measure(time: Numbers, trace: Numbers): Oscillation | string {
   if (lasting < FEWEST_PERIODS) {
     return `only ${lasting.toFixed(1)} periods to measure`;
   }
+  if (frequency * (window[1]! - window[0]!) * FEWEST_A_PERIOD > 1) {
+    return `fewer than ${FEWEST_A_PERIOD} samples a period`;
+  }
   const { left, offset } = remainder(found, window, scaled);
   const residual = Math.sqrt(square(left) / square(scaled.map((value) => value - offset)));
   if (!(residual <= FITS)) {
@@ -54,10 +58,6 @@ export function measure(time: Numbers, trace: Numbers): Oscillation | string {
   }
   const offsetOf = (other: Numbers): number => remainder(found, window, Float64Array.from(other)).offset;
   return { growth, frequency, offset: offset * swing, offsetOf };
-}
-
-function range(values: Numbers): number {
-  return Math.max(...values) - Math.min(...values);
 }
 
 function dot(one: Numbers, other: Numbers): number {

@@ -58,6 +58,9 @@ for (const { values, traces, alone, rows, jerk } of cases) {
       }
       near(one.theory, row.theory, row.allowed, `theory's ${row.quantity}`);
       near(one.run, row.run, row.allowed, `the run's ${row.quantity}`);
+      if (row.allowed !== null) {
+        assert(Math.abs(one.allowed - row.allowed) <= 1e-3 * row.allowed, `${row.quantity}: ${one.allowed} allowed`);
+      }
       assert.deepEqual([row.quantity, one.notJudged, verdict(one)], [row.quantity, row.notJudged, row.verdict]);
     }
     const shown = cell(columns(traces), values["eps"]!);
