@@ -15,6 +15,7 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 
 from platformdirs import user_cache_path
@@ -22,6 +23,7 @@ from platformdirs import user_cache_path
 SETTING = "FMU_BUILD_CACHE"
 LARGEST = 2**29  # bytes that stay; what was used longest ago goes first
 ABANDONED = 86400.0  # s, after which a file that has got no name yet is that of a build that was killed
+SETTLED = 10**9  # ns, after which a file that changes again tells by its times: they go by ticks of milliseconds
 CHECKSUM = 32  # bytes, before the content
 
 Part = str | Path  # a text; a file, which counts with its name and bytes
@@ -59,10 +61,28 @@ def _key(parts: Callable[[], Iterator[Part]]) -> str | None:
         for part in parts():
             whole.update(hashlib.sha256(repr(part).encode("utf-8", "backslashreplace")).digest())
             if isinstance(part, Path):
-                whole.update(hashlib.sha256(part.read_bytes()).digest())
+                whole.update(_digest(part))
     except OSError:
         return None
     return whole.hexdigest()
+
+
+def _digest(file: Path) -> bytes:
+    """Of the content. A build asks several times, so what has not changed since is not read again."""
+    status = file.stat()
+    changed = max(status.st_mtime_ns, status.st_ctime_ns)
+    if time.time_ns() - changed < SETTLED:
+        return _content_digest(file)
+    return _remembered(file, status.st_ino, status.st_size, changed)
+
+
+@cache
+def _remembered(file: Path, *_: int) -> bytes:
+    return _content_digest(file)
+
+
+def _content_digest(file: Path) -> bytes:
+    return hashlib.sha256(file.read_bytes()).digest()
 
 
 def _folder() -> Path | None:

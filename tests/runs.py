@@ -15,4 +15,4 @@ from overrun_hitch.parameters import Scenario
 def step_brake(scenario: Scenario, *, fmu: Path, **settings: float) -> xr.Dataset:
     """`brake` on a new instance."""
     with opened_unit(fmu) as unit:
-        return brake(unit, scenario, Settings(**settings))
+        return brake(unit, scenario, Settings(**settings)).dataset()

@@ -1,12 +1,16 @@
-"""A run as a labelled table: variables over time with units, and what a CSV file of it holds."""
+"""A run as a labelled table: variables over time with units, and what a CSV file of it holds.
+
+As xarray for those who script, as a Run for ourselves: xarray takes most of a second to load.
+"""
 
 from __future__ import annotations
 
 import csv
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,13 +37,29 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
 }
 
 
+@dataclass(frozen=True)
+class Run:
+    """Samples (n,) of VARIABLES, in their units, at `time` (n,) in s; `attrs` as of a `dataset`."""
+
+    time: Floats
+    columns: Mapping[str, Floats]
+    attrs: Mapping[str, Any]
+
+    def dataset(self) -> xr.Dataset:
+        """The same as xarray."""
+        return dataset(self.time, self.columns, self.attrs)
+
+
+AnyRun = TypeVar("AnyRun", bound="Run | xr.Dataset")
+
+
 def dataset(time: Floats, columns: Mapping[str, Floats], attributes: Mapping[str, object]) -> xr.Dataset:
     """A result: dimension `time` (n,) in s, the VARIABLES (n,) of `columns`, each with units and long_name.
 
     `attributes` of a run are the parameters by name in SI units, scenario, brake_torque (N.m), duration (s), and what
     made it: fmu, relative_tolerance, communication_step (s), versions.
     """
-    import xarray as xr  # here, because it takes a second, and who needs the names alone need not wait
+    import xarray as xr
 
     variables = {
         name: ("time", np.asarray(columns[name], dtype=np.float64), {"units": unit, "long_name": long_name})
@@ -59,7 +79,7 @@ def scenario_attributes(scenario: Scenario) -> dict[str, object]:
     }
 
 
-def scenario_of(result: xr.Dataset) -> Scenario:
+def scenario_of(result: Run | xr.Dataset) -> Scenario:
     """The scenario that made a result, from its attributes; HitchError where they are missing."""
     attributes = result.attrs
     missing = [
@@ -75,24 +95,33 @@ def scenario_of(result: xr.Dataset) -> Scenario:
     )
 
 
-def missing(result: xr.Dataset) -> tuple[str, ...]:
+def missing(result: Run | xr.Dataset) -> tuple[str, ...]:
     """The VARIABLES that what was run has not, and whose samples are NaN for it."""
     return tuple(filter(None, str(result.attrs.get("missing", "")).split(", ")))
 
 
-def values(result: xr.Dataset, name: str) -> Floats:
+def values(result: Run | xr.Dataset, name: str) -> Floats:
     """The samples (n,) of a variable or of "time"."""
+    if isinstance(result, Run):
+        return result.time if name == "time" else result.columns[name]
     return np.asarray(result[name].values, dtype=np.float64)
 
 
-def columns(result: xr.Dataset) -> dict[str, Floats]:
+def with_samples(result: AnyRun, samples: Mapping[str, Floats]) -> AnyRun:
+    """The result with other samples (n,) of some variables."""
+    if isinstance(result, Run):
+        return cast("AnyRun", replace(result, columns={**result.columns, **samples}))
+    described = {name: ("time", column, result[name].attrs) for name, column in samples.items()}
+    return cast("AnyRun", result.assign(described))
+
+
+def columns(result: Run | xr.Dataset) -> dict[str, Floats]:
     """Time and variables (n,) by their names with units, "time [s]": the columns of a CSV file.
 
     Times, which are multiples of the step, without what rounding has made of them.
     """
-    units = {str(name): result[name].attrs["units"] for name in ("time", *result.data_vars)}
-    table = {name: values(result, name) for name in units} | {"time": np.array(decimals(values(result, "time")))}
-    return {f"{name} [{units[name]}]": table[name] for name in units}
+    table = {f"{name} [{unit}]": values(result, name) for name, (unit, _) in VARIABLES.items()}
+    return {"time [s]": np.array(decimals(values(result, "time"))), **table}
 
 
 def read_csv(path: Path) -> xr.Dataset:

@@ -117,6 +117,31 @@ def test_what_changes_meanwhile_is_not_kept(folder: Path, tmp_path: Path) -> Non
     assert entries(folder) == []
 
 
+def test_what_has_been_read_is_read_again_when_it_changes(folder: Path, tmp_path: Path) -> None:
+    """Old or new, of the same size and with the same time of modification, in its place or moved there."""
+    file, other = tmp_path / "a", tmp_path / "b"
+    for text in ("1", "2", "3"):
+        file.write_text(text)
+        os.utime(file, (1e9, 1e9))
+        assert not is_kept(file) and is_kept(file)
+    other.write_text("4")
+    os.utime(other, (1e9, 1e9))
+    other.replace(file)
+    assert not is_kept(file) and is_kept(file)
+
+
+def test_what_has_not_changed_is_read_once(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    file, read = tmp_path / "a", []
+    file.write_text("1")
+    digest = cache._content_digest
+    monkeypatch.setattr(cache, "_content_digest", lambda path: read.append(path) or digest(path))
+    monkeypatch.setattr(cache, "SETTLED", 0)  # as if it had been written a while ago
+    assert not is_kept(file) and is_kept(file) and is_kept(file, "with another") is False
+    assert read == [file]
+    file.write_text("12")
+    assert not is_kept(file) and len(read) == 2
+
+
 def test_what_ends_early_leaves_nothing(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def interrupted(*_: object) -> bytes:
         raise KeyboardInterrupt

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-EXTRAS = ["dask", "distributed", "locket", "zarr", "SALib", "threadpoolctl"]
+EXTRAS = ["dask", "distributed", "locket", "zarr", "SALib", "jinja2"]
 EXTRAS += ["rumoca", "sympy", "networkx", "nh3", "platformdirs"]
 WITHOUT = "import sys; sys.modules.update(dict.fromkeys({packages!r})); "  # what is None there can't be imported
 HITCH = "from overrun_hitch.__main__ import main; sys.exit(main())"

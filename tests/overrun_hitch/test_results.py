@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 from overrun_hitch.parameters import FIGURES, HitchError
-from overrun_hitch.results import columns, read_csv, scenario_of
+from overrun_hitch.results import VARIABLES, Run, columns, missing, read_csv, scenario_of, values, with_samples
 from overrun_hitch.show.files import write_csv
 
 OracleRun = Callable[..., xr.Dataset]
@@ -49,3 +49,15 @@ def test_variables_say_what_they_are(oracle_run: OracleRun) -> None:
         assert run[name].attrs["units"]
         assert run[name].attrs["long_name"]
         assert np.isfinite(run[name]).all()
+
+
+def test_a_run_is_the_same_with_and_without_xarray(oracle_run: OracleRun) -> None:
+    there = oracle_run(FIGURES["8"])
+    run = Run(values(there, "time"), {name: values(there, name) for name in VARIABLES}, there.attrs)
+    assert run.dataset().identical(there)
+    assert scenario_of(run) == scenario_of(there) and missing(run) == missing(there)
+    other = {"v_car": 2.0 * values(run, "v_car")}
+    assert with_samples(run, other).dataset().identical(with_samples(there, other))
+    assert values(with_samples(run, other), "a_car") is values(run, "a_car")
+    for one, same in zip(columns(run).items(), columns(there).items(), strict=True):
+        assert one[0] == same[0] and (one[1] == same[1]).all()

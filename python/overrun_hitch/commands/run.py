@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -25,6 +25,9 @@ from overrun_hitch.commands.options import (
 from overrun_hitch.parameters import CASES, FIGURES
 from overrun_hitch.scenarios import asked_scenario
 from overrun_hitch.show.words import printable
+
+if TYPE_CHECKING:
+    from overrun_hitch.experiments.torque import Torque
 
 
 def run(
@@ -62,13 +65,12 @@ def run(
     with guest_file(chosen_fmu(fmu), time_limit, names, use) as unit:  # which gets ready while the rest is imported
         from overrun_hitch import results
         from overrun_hitch.comparison import theory_table
-        from overrun_hitch.comparison.sources import read_profile
         from overrun_hitch.comparison.theory import compare
         from overrun_hitch.experiments.step_brake import brake, car_alone
         from overrun_hitch.show import files, terminal, traces
 
         with terminal.patience("Braking"):
-            given: dict[str, Any] = {"torque": read_profile(profile) if profile else None, "grade": grade}
+            given: dict[str, Any] = {"torque": _torque(profile), "grade": grade}
             result = brake(unit, scenario, settings, **given)
             rows = compare(result, brake(unit, car_alone(scenario), settings, **given))
             guessed = unit.identity.notes
@@ -82,3 +84,11 @@ def run(
         paths = [table, *traces.write(result, stem)]
     theory_table.show(scenario, result, rows, paths)
     return 1 if any(row.differs for row in rows) else 0
+
+
+def _torque(profile: Path | None) -> Torque | None:
+    if profile is None:
+        return None
+    from overrun_hitch.comparison.sources import read_profile  # which interpolates, by SciPy
+
+    return read_profile(profile)

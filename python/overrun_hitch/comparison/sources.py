@@ -8,7 +8,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from string import ascii_uppercase
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 import xarray as xr
@@ -19,11 +19,14 @@ from overrun_hitch.experiments.step_brake import brake
 from overrun_hitch.experiments.torque import Torque
 from overrun_hitch.fmu.guest import GuestLost
 from overrun_hitch.fmu.guest_unit import guest_file
+from overrun_hitch.fmu.identity import Identity
 from overrun_hitch.fmu.settings import Settings, Use, checked_time_limit
-from overrun_hitch.fmu.unit import AnyUnit, Identity
 from overrun_hitch.foreign.mapping import Names, Theirs
 from overrun_hitch.foreign.trace_file import read_table
 from overrun_hitch.parameters import HitchError, Scenario
+
+if TYPE_CHECKING:
+    from overrun_hitch.fmu.unit import AnyUnit
 
 Floats = NDArray[np.float64]
 
@@ -82,7 +85,7 @@ class UnitSource:
         if self.lost:
             raise self.lost
         try:
-            result = brake(self.unit, asked.scenario, asked.settings, times, asked.torque)
+            result = brake(self.unit, asked.scenario, asked.settings, times, asked.torque).dataset()
             self.identity = self.unit.identity
         except GuestLost as error:
             self.lost = error

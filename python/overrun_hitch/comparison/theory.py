@@ -18,20 +18,23 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
-from scipy.integrate import cumulative_trapezoid
 
 from overrun_hitch.comparison.motion import with_motion
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.measure.oscillation import NoOscillation, Oscillation, fitting, measure
 from overrun_hitch.measure.passages import compressed_from
+from overrun_hitch.measure.sampled import integrals
 from overrun_hitch.parameters import HitchError, Parameters
-from overrun_hitch.results import missing, scenario_of, values
+from overrun_hitch.results import Run, missing, scenario_of, values
 from overrun_hitch.theory.linear import ShuntingMode, shunting_mode, wheel_decay_rate
 from overrun_hitch.theory.steady import steady
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Floats = NDArray[np.float64]
 
@@ -69,11 +72,11 @@ class _Run:
         """How many samples pass until theory has the oscillation fall by exp(-measure)."""
         if self.mode is None:
             return len(self.time)
-        exponent = cumulative_trapezoid(self.mode.growth_rate, self.time, initial=0.0)
+        exponent = integrals(self.mode.growth_rate, self.time)
         return int(np.searchsorted(-np.minimum.accumulate(exponent), measure))
 
 
-def compare(run: xr.Dataset, alone: xr.Dataset | None) -> list[Judged]:
+def compare(run: Run | xr.Dataset, alone: Run | xr.Dataset | None) -> list[Judged]:
     """Judge a step brake; `alone` is the same one with the car alone (run.car_alone), for A_c, if there is one.
 
     Growth rate (1/s) and frequency (Hz) are means over the window that was fitted (NaN where no exponential fits),
@@ -89,13 +92,13 @@ def compare(run: xr.Dataset, alone: xr.Dataset | None) -> list[Judged]:
     return [*_mode_rows(part, part.window, found), *_steady_rows(part, found, run, alone)]
 
 
-def shunting(run: xr.Dataset) -> tuple[Oscillation | NoOscillation, str]:
+def shunting(run: Run | xr.Dataset) -> tuple[Oscillation | NoOscillation, str]:
     """The shunting oscillation as `compare` measures it, and "" or why linear theory does not hold meanwhile."""
     part = _settled_part(run)
     return _oscillation(part), "" if part.stays else part.not_linear
 
 
-def shunting_window(run: xr.Dataset) -> tuple[float, float]:
+def shunting_window(run: Run | xr.Dataset) -> tuple[float, float]:
     """When (s) `shunting` begins and ends to look."""
     part = _settled_part(run)
     seen = part.time[part.window]
@@ -106,7 +109,7 @@ def _oscillation(part: _Run) -> Oscillation | NoOscillation:
     return measure(part.time[part.window], part.compression[part.window])
 
 
-def _settled_part(run: xr.Dataset) -> _Run:
+def _settled_part(run: Run | xr.Dataset) -> _Run:
     p = scenario_of(run).parameters
     known = p.at_default("neutral")
     time, compression = values(run, "time"), values(run, "compression")
@@ -132,7 +135,7 @@ def _settled_part(run: xr.Dataset) -> _Run:
     )
 
 
-def _largest_slip(run: xr.Dataset, after: slice) -> float:
+def _largest_slip(run: Run | xr.Dataset, after: slice) -> float:
     """Of both vehicles; where it is not given, what the car's brake torque and the steady brake force make of it."""
     if not {"slip_car", "slip_trailer"} & set(missing(run)):
         return float(np.abs([values(run, "slip_car")[after], values(run, "slip_trailer")[after]]).max())
@@ -145,7 +148,7 @@ def _largest_slip(run: xr.Dataset, after: slice) -> float:
     return max(scenario.brake_torque / p.R_c / p.C_kc, p.r * max(pushed, 0.0) / p.R_t / p.C_kt)
 
 
-def _no_step(run: xr.Dataset) -> str:
+def _no_step(run: Run | xr.Dataset) -> str:
     """What makes it another manoeuvre than the paper's; "" if nothing does."""
     if run.attrs.get("profile"):
         return "the brake torque is no step"
@@ -180,7 +183,7 @@ def _mode_rows(part: _Run, window: slice, found: Oscillation | NoOscillation) ->
 
 
 def _steady_rows(
-    part: _Run, found: Oscillation | NoOscillation, run: xr.Dataset, alone: xr.Dataset | None
+    part: _Run, found: Oscillation | NoOscillation, run: Run | xr.Dataset, alone: Run | xr.Dataset | None
 ) -> list[Judged]:
     p = part.parameters
     A, D, reason = _steady_values(part, found)
@@ -217,7 +220,7 @@ def _steady_values(part: _Run, found: Oscillation | NoOscillation) -> tuple[floa
     return _mean(part.time, part.a_car), _mean(part.time, part.compression), reason
 
 
-def _mean_acceleration(result: xr.Dataset, start: float) -> float:
+def _mean_acceleration(result: Run | xr.Dataset, start: float) -> float:
     """Mean acceleration of the car (m/s2) from `start` (s) to the end, from its speed."""
     time, speed = values(result, "time"), values(result, "v_car")
     first = min(int(np.searchsorted(time, start)), len(time) - 2)
@@ -227,4 +230,4 @@ def _mean_acceleration(result: xr.Dataset, start: float) -> float:
 def _mean(time: Floats, samples: Floats) -> float:
     if len(time) < 2:
         return float(samples[0]) if len(samples) else math.nan
-    return float(cumulative_trapezoid(samples, time)[-1] / (time[-1] - time[0]))
+    return float(integrals(samples, time)[-1] / (time[-1] - time[0]))

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-import xarray as xr
-
 from overrun_hitch.measure.judged import Judged
 from overrun_hitch.parameters import Scenario
+from overrun_hitch.results import Run, values
 from overrun_hitch.show.table import Column, Numbers, Row, coloured, console, number, show_rows, show_written, small
 
 COLUMNS = (
@@ -17,10 +16,10 @@ COLUMNS = (
 )  # fmt: skip
 
 
-def show(scenario: Scenario, result: xr.Dataset, rows: Sequence[Judged], paths: Sequence[Path]) -> None:
+def show(scenario: Scenario, result: Run, rows: Sequence[Judged], paths: Sequence[Path]) -> None:
     """Print theory against simulation, what there is to say about it, and the files written."""
     out = console()
-    last = float(result["time"][-1])
+    last = float(values(result, "time")[-1])
     torque = "braked from" if result.attrs.get("profile") else f"{scenario.brake_torque:g} N.m at"
     out.print(f"{scenario.name}: {torque} {scenario.parameters.V_0:g} m/s, {last:g} s")
     show_rows(out, COLUMNS, map(_cells, rows), map(_sentence, rows))

@@ -154,7 +154,7 @@ def _costs(unit: AnyUnit, before: Parameters, after: Parameters, V: float) -> di
     runs = [
         brake(unit, Scenario(name="cost", parameters=each.changed({"V_0": V})), SETTINGS) for each in (before, after)
     ]
-    length = min(run.sizes["time"] for run in runs)
+    length = min(len(run.time) for run in runs)
     traces = Traces(
         values(runs[0], "time")[:length],
         {name: np.array([values(run, name)[:length] for run in runs]) for name in NEEDED},

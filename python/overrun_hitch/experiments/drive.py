@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from overrun_hitch.fmu.unit import HitchUnit
 from overrun_hitch.parameters import Parameters
+
+if TYPE_CHECKING:  # a host that asks for a run loads no fmpy
+    from overrun_hitch.fmu.unit import HitchUnit
 
 Floats = NDArray[np.float64]
 

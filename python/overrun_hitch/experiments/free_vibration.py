@@ -14,7 +14,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from overrun_hitch.experiments.step_brake import brake
@@ -23,7 +22,7 @@ from overrun_hitch.fmu.unit import AnyUnit
 from overrun_hitch.measure.envelope import measured_decrement
 from overrun_hitch.measure.oscillation import FEWEST_PERIODS, NoOscillation, fitting, measure
 from overrun_hitch.parameters import HitchError, Parameters, Scenario, with_unit
-from overrun_hitch.results import values
+from overrun_hitch.results import Run, values
 from overrun_hitch.theory.linear import shunting_mode
 from overrun_hitch.theory.steady import inertias, steady
 from overrun_hitch.theory.working_point import working_point
@@ -143,7 +142,7 @@ def left_out(parameters: Parameters) -> list[str]:
     ]
 
 
-def _run(unit: AnyUnit, parameters: Parameters, V: float) -> xr.Dataset:
+def _run(unit: AnyUnit, parameters: Parameters, V: float) -> Run:
     scenario = vibration(parameters, V)
     steps = math.ceil(scenario.duration * SAMPLES_A_PERIOD * _expected(parameters, V).imag / (2.0 * math.pi))
     settings = Settings(relative_tolerance=RELATIVE_TOLERANCE, communication_step=scenario.duration / steps)

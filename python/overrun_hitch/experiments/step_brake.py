@@ -8,9 +8,9 @@ from importlib.metadata import version
 from itertools import pairwise
 from numbers import Real
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from overrun_hitch.experiments.drive import drive
@@ -18,9 +18,13 @@ from overrun_hitch.experiments.torque import Torque
 from overrun_hitch.fmu.guest import GuestLost
 from overrun_hitch.fmu.guest_unit import guest_file
 from overrun_hitch.fmu.settings import TIME_LIMIT, Settings
-from overrun_hitch.fmu.unit import AnyUnit
 from overrun_hitch.parameters import DATUM, HitchError, Parameters, Scenario
-from overrun_hitch.results import VARIABLES, dataset, scenario_attributes
+from overrun_hitch.results import VARIABLES, Run, scenario_attributes
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from overrun_hitch.fmu.unit import AnyUnit
 
 Floats = NDArray[np.float64]
 
@@ -39,14 +43,14 @@ def step_brake(
     torque: Torque | None = None,
     grade: float = 0.0,
 ) -> xr.Dataset:
-    """`brake` on an FMU file that is opened for this one run, in a process of its own. `time_limit` in s.
+    """`brake` on an FMU file that is opened for this one run, in a process of its own; see results.dataset.
 
-    HitchError also for a file that is no such FMU, and for one that crashes or takes longer.
+    `time_limit` in s. HitchError also for a file that is no such FMU, and for one that crashes or takes longer.
     """
     settings = Settings(relative_tolerance=relative_tolerance, communication_step=communication_step)
     _communication_points(scenario, settings.communication_step)  # what is wrong with it comes first
     with guest_file(fmu, time_limit) as unit:
-        return brake(unit, scenario, settings, torque=torque, grade=grade)
+        return brake(unit, scenario, settings, torque=torque, grade=grade).dataset()
 
 
 def brake(
@@ -56,8 +60,8 @@ def brake(
     times: Floats | None = None,
     torque: Torque | None = None,
     grade: float = 0.0,
-) -> xr.Dataset:
-    """Run `scenario` on the unit and sample it at the communication points, t = 0 included (see results.dataset).
+) -> Run:
+    """Run `scenario` on the unit and sample it at the communication points, t = 0 included.
 
     At `times` (n,) in s instead, rising from 0 or later, where they are given. `torque`: instead of a step of the
     scenario's brake torque. `grade`: rise of the road over its run, -STEEPEST to STEEPEST.
@@ -90,7 +94,7 @@ def brake(
         "versions": ", ".join(f"{name} {version(name)}" for name in ("fmpy", "numpy", "xarray")),
     }
     shown = np.isin(points[: len(rows)], wanted)
-    return dataset(points[: len(rows)][shown], dict(zip(VARIABLES, rows[shown].T, strict=True)), attributes)
+    return Run(points[: len(rows)][shown], dict(zip(VARIABLES, rows[shown].T, strict=True)), attributes)
 
 
 def car_alone(scenario: Scenario) -> Scenario:

@@ -5,6 +5,7 @@ __all__ = [
     "files",
     "guest",
     "guest_unit",
+    "identity",
     "messages",
     "opening",
     "profiles",

@@ -28,10 +28,10 @@ from typing import Any
 
 from overrun_hitch.fmu import guest_process
 from overrun_hitch.parameters import HitchError
+from overrun_hitch.threads import ONE_THREAD
 
 START = 60.0  # s, at least, to get ready: Python starts, and a busy machine is not the FMU's fault
 PATIENCE = 2.0  # s, for a guest to leave by itself
-ONE_THREAD = dict.fromkeys(("MKL_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")  # as Dask's workers
 LOOK_EVERY = 0.25  # s, at most
 PLACE = "HITCH_PLACE"  # in the environment of a guest: the file in which `tell` leaves its word
 OURS = -1  # the place of work that takes as long as it takes

@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Concatenate, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, TypeVar
 
 from overrun_hitch.fmu.guest import Guest
-from overrun_hitch.fmu.opening import opened_foreign, opened_unit
+from overrun_hitch.fmu.identity import Identity
 from overrun_hitch.fmu.settings import TIME_LIMIT, Use, checked_time_limit
-from overrun_hitch.fmu.unit import AnyUnit, HitchUnit, Identity
 from overrun_hitch.foreign.mapping import NO_NAMES, Names
+
+if TYPE_CHECKING:  # fmpy is for guests: a host need not wait until it is loaded
+    from overrun_hitch.fmu.unit import AnyUnit, HitchUnit
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -42,7 +44,7 @@ def guest_unit(fmu: Path, time_limit: float = TIME_LIMIT) -> Iterator[GuestUnit]
 
     `time_limit` in s, for each run. HitchError as `opened_unit`, from the first run on.
     """
-    with Guest(str(fmu), checked_time_limit(time_limit), opened_unit, fmu) as guest:
+    with Guest(str(fmu), checked_time_limit(time_limit), _unit, fmu) as guest:
         yield GuestUnit(fmu.name, guest)
 
 
@@ -58,6 +60,14 @@ def guest_file(
         yield GuestUnit(fmu.name, guest)
 
 
+@contextmanager
+def _unit(fmu: Path) -> Iterator[HitchUnit]:
+    from overrun_hitch.fmu.opening import opened_unit
+
+    with opened_unit(fmu) as unit:
+        yield unit
+
+
 class _File:
     """An AnyUnit that is opened for each run."""
 
@@ -67,6 +77,8 @@ class _File:
         self._how = fmu, names, use
 
     def perform(self, run: Callable[Concatenate[HitchUnit, P], R], *args: P.args, **kwargs: P.kwargs) -> R:
+        from overrun_hitch.fmu.opening import opened_foreign
+
         with opened_foreign(*self._how) as unit:
             self.identity = unit.identity
             return run(unit, *args, **kwargs)

@@ -10,12 +10,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import Any, Concatenate, ParamSpec, Protocol, TypeVar
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
+from overrun_hitch.fmu.identity import Identity
 from overrun_hitch.fmu.messages import StartRefused, StepRefused, refusal
 from overrun_hitch.fmu.sampler import Floats, Sampler
 from overrun_hitch.fmu.settings import USES, Use
@@ -25,17 +25,6 @@ from overrun_hitch.results import VARIABLES
 
 P = ParamSpec("P")
 R = TypeVar("R")
-
-
-@dataclass(frozen=True)
-class Identity:
-    """What an FMU is, for those who judge it."""
-
-    guid: str
-    interface: str  # "FMI 2.0, Co-Simulation"
-    tool: str  # that made it; "" where it does not say
-    missing: tuple[str, ...] = ()  # of results.VARIABLES
-    notes: tuple[str, ...] = ()  # what had to be guessed, a sentence each
 
 
 class Unit:

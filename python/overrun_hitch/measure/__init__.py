@@ -1,3 +1,3 @@
 """Traces to numbers."""
 
-__all__ = ["envelope", "funnel", "judged", "metrics", "noise", "oscillation", "passages", "resampling"]
+__all__ = ["envelope", "funnel", "judged", "metrics", "noise", "oscillation", "passages", "resampling", "sampled"]

@@ -7,16 +7,20 @@ because a short visit can lie between two samples.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
-from scipy.interpolate import CubicHermiteSpline
 
+from overrun_hitch.measure.sampled import refined
 from overrun_hitch.results import scenario_of, values
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 Floats = NDArray[np.float64]
+
+FINE = 16  # parts of a sampling step
 
 
 @dataclass(frozen=True)
@@ -39,9 +43,11 @@ def passages(run: xr.Dataset) -> tuple[Passage, ...]:
     A touch without passing is none, nor is the start. Sampled every 10 ms, those of the paper's figure 10 are within
     3e-7 s of the oracle's.
     """
+    from scipy.interpolate import CubicHermiteSpline  # here: `compressed_from` goes without, and is quickly loaded
+
     eps = scenario_of(run).parameters.eps
     time = values(run, "time")
-    path = _path(time, values(run, "compression"), values(run, "v_trailer") - values(run, "v_car"))
+    path = CubicHermiteSpline(time, values(run, "compression"), values(run, "v_trailer") - values(run, "v_car"))
     found = [
         Passage(float(root), end, bool(inwards))
         for end, level in ({"0": 0.0, "eps": eps} if eps > 0.0 else {"0": 0.0}).items()
@@ -56,10 +62,9 @@ def compressed_from(
     """When (s) the drawbar is first compressed, whether it stays so, and a sentence if it was or is not so.
 
     Compressed between `start` and `end` (m), where its stiffness is one. Samples are (n,), in s, m and m/s. To a
-    sixteenth of the sampling step.
+    sixteenth, FINE, of the sampling step.
     """
-    fine = np.linspace(time[0], time[-1], 16 * (len(time) - 1) + 1)
-    path = _path(time, compression, rate)(fine)
+    fine, path = refined(time, compression, rate, FINE)
     inside = path > start
     if not inside.any():
         return float(time[0]), False, "drawbar is never in compression"
@@ -74,11 +79,6 @@ def compressed_from(
     if compression[0] < start:
         return entry, True, f"drawbar comes into compression only at t = {entry:.2f} s"
     return entry, True, ""
-
-
-def _path(time: Floats, compression: Floats, rate: Floats) -> Any:
-    """Compression (m) as a function of time (s)."""
-    return CubicHermiteSpline(time, compression, rate)
 
 
 def _crossings(path: Any, time: Floats, level: float) -> list[tuple[float, bool]]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 import math
 import os
@@ -10,8 +12,6 @@ from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
-
-import pandas as pd
 
 from overrun_hitch.parameters import HitchError
 
@@ -25,8 +25,11 @@ def write(contents: Mapping[Path, bytes]) -> list[Path]:
 
 def write_csv(path: Path, columns: Mapping[str, Iterable[object]]) -> None:
     """Write columns of equal length under their names ("time [s]"), every digit kept. HitchError if that cannot be."""
-    frame = pd.DataFrame(dict(columns))
-    write_atomically(path, partial(frame.to_csv, index=False, na_rep="nan", lineterminator="\n", encoding="utf-8"))
+    text = io.StringIO(newline="")
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(columns)
+    table.writerows(zip(*columns.values(), strict=True))
+    write({path: text.getvalue().encode()})
 
 
 def json_text(document: Any) -> str:

@@ -5,19 +5,23 @@ from __future__ import annotations
 import io
 import textwrap
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from overrun_hitch.parameters import HitchError, Scenario
-from overrun_hitch.results import scenario_of, values
+from overrun_hitch.results import Run, scenario_of, values
 from overrun_hitch.show import files
 from overrun_hitch.theory.steady import Steady, steady
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Floats = NDArray[np.float64]
 
@@ -44,7 +48,8 @@ STYLE: dict[Any, Any] = {
     "legend.handlelength": 2.6,
     "svg.hashsalt": "overrun_hitch",  # the same run gives the same file
 }
-KINDS: dict[str, dict[str, Any]] = {"png": {"dpi": 200}, "svg": {"metadata": {"Date": None}}}
+KINDS = ("png", "svg")
+DPI = 200  # of a PNG
 
 
 class Traces(Figure):
@@ -54,7 +59,7 @@ class Traces(Figure):
         return rendered(self, "svg").decode()
 
 
-def draw(run: xr.Dataset) -> Figure:
+def draw(run: Run | xr.Dataset) -> Figure:
     """The three panels of a step brake (see results.dataset), with theory's steady values as thin dotted lines."""
     scenario = scenario_of(run)
     is_step = not run.attrs.get("profile")
@@ -85,7 +90,7 @@ def draw(run: xr.Dataset) -> Figure:
     return figure
 
 
-def write(run: xr.Dataset, stem: Path) -> list[Path]:
+def write(run: Run | xr.Dataset, stem: Path) -> list[Path]:
     """Draw a run to stem.png and stem.svg; returns the two paths. HitchError if they cannot be written."""
     return save(draw(run), stem)
 
@@ -96,10 +101,17 @@ def save(figure: Figure, stem: Path) -> list[Path]:
 
 
 def rendered(figure: Figure, kind: str) -> bytes:
-    """The content of the file of this kind, one of KINDS; the same figure gives the same bytes."""
+    """The content of the file of this kind, one of KINDS; the same figure gives the same bytes.
+
+    They are those that savefig would give. It draws everything twice.
+    """
     buffer = io.BytesIO()
     with mpl.rc_context(STYLE):
-        figure.savefig(buffer, format=kind, **KINDS[kind])
+        if kind == "png":
+            figure.set_dpi(DPI)
+            FigureCanvasAgg(figure).print_png(buffer)  # type: ignore[no-untyped-call]
+        else:
+            FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None})  # type: ignore[no-untyped-call]
     return buffer.getvalue()
 
 

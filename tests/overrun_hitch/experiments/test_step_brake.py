@@ -6,6 +6,7 @@ import gc
 import os
 import tempfile
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -203,7 +204,8 @@ def test_disagreement_is_status_1(car_trailer_fmu: Path, tmp_path: Path, monkeyp
 
     def other_damper(unit: AnyUnit, scenario: Scenario, settings: Settings, **given: Any) -> object:
         changed = scenario.changed(parameters=scenario.parameters.changed({"C": 1.1 * scenario.parameters.C}))
-        return brake(unit, changed, settings, **given).assign_attrs(C=scenario.parameters.C)
+        run = brake(unit, changed, settings, **given)
+        return replace(run, attrs={**run.attrs, "C": scenario.parameters.C})
 
     monkeypatch.setattr("overrun_hitch.experiments.step_brake.brake", other_damper)
     assert cli.main(["run", "--fmu", str(car_trailer_fmu), "--output", str(tmp_path)]) == 1

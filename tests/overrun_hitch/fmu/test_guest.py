@@ -85,11 +85,11 @@ def test_the_next_run_gets_another_process(car_trailer_fmu: Path, tmp_path: Path
         for C in (500.0, 1.0, 2.0)
     ]
     with guest_unit(fmu, time_limit=1.0) as unit:
-        before = experiment.brake(unit, scenarios[0], Settings())
+        before = experiment.brake(unit, scenarios[0], Settings()).dataset()
         for scenario, words in zip(scenarios[1:], ("segmentation fault", "did not finish"), strict=True):
             with pytest.raises(HitchError, match=words):
                 experiment.brake(unit, scenario, Settings())
-        assert experiment.brake(unit, scenarios[0], Settings()).identical(before)
+        assert experiment.brake(unit, scenarios[0], Settings()).dataset().identical(before)
 
 
 @pytest.mark.parametrize("figure", ["8", "11"])

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
 from pathlib import Path
 
+import matplotlib as mpl
 import pytest
 import xarray as xr
 from matplotlib.axes import Axes
 
 from overrun_hitch.parameters import FIGURES
-from overrun_hitch.show.traces import draw, write
+from overrun_hitch.show.traces import DPI, STYLE, draw, rendered, write
 from tests.sampling import sampled
 
 OracleRun = Callable[..., xr.Dataset]
@@ -61,3 +63,14 @@ def test_the_same_run_gives_the_same_files(oracle_run: OracleRun, tmp_path: Path
     assert first[0].read_bytes().startswith(b"\x89PNG")
     assert b"<svg" in first[1].read_bytes()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.png", "a.svg", "b.png", "b.svg"]
+
+
+def test_files_are_those_of_savefig(oracle_run: OracleRun) -> None:
+    """Which draws everything twice."""
+    run = oracle_run(FIGURES["8"])
+    mine, theirs = draw(run), draw(run)
+    for kind, how in [("png", {"dpi": DPI}), ("svg", {"metadata": {"Date": None}})]:
+        buffer = io.BytesIO()
+        with mpl.rc_context(STYLE):
+            theirs.savefig(buffer, format=kind, **how)
+        assert rendered(mine, kind) == buffer.getvalue()

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 
 import numpy as np
-import xarray as xr
 from scipy.optimize import brentq
 from scipy.signal import find_peaks
 
@@ -16,7 +15,7 @@ from overrun_hitch.measure.oscillation import Oscillation
 from overrun_hitch.paper.claims.claim import Claim, Part, above, below, near
 from overrun_hitch.paper.study.study import BRAKE_TORQUE, Study
 from overrun_hitch.parameters import FIGURES, Parameters
-from overrun_hitch.results import scenario_of, values
+from overrun_hitch.results import Run, scenario_of, values
 from overrun_hitch.theory.linear import shunting_mode
 from overrun_hitch.theory.steady import steady
 
@@ -151,7 +150,7 @@ def _delays(study: Study) -> list[Part]:
     return parts
 
 
-def _lost_decelerations(runs: Mapping[str, xr.Dataset], without: Mapping[str, xr.Dataset]) -> list[Part]:
+def _lost_decelerations(runs: Mapping[str, Run], without: Mapping[str, Run]) -> list[Part]:
     """What the clearance costs, over the whole run."""
     parts = []
     for name, other in without.items():
@@ -166,7 +165,7 @@ def _lost_decelerations(runs: Mapping[str, xr.Dataset], without: Mapping[str, xr
     return parts
 
 
-def peak_frequency(run: xr.Dataset) -> float:
+def peak_frequency(run: Run) -> float:
     """Mean frequency (Hz) between the peaks of the compression: also for motions that are no sine.
 
     NaN where there are fewer than three that stand out by 2 % of the swing: a motion that is over after an overshoot.
@@ -191,15 +190,15 @@ def _swelling(study: Study, figure: str) -> float:
     return float(np.ptp(compression[time >= time[-1] - 2.0]) / np.ptp(compression[time <= 2.0]))
 
 
-def _swing(run: xr.Dataset, name: str) -> float:
+def _swing(run: Run, name: str) -> float:
     return float(values(run, name)[values(run, "time") > TRANSIENT].std())
 
 
-def _mean_speed(run: xr.Dataset) -> float:
+def _mean_speed(run: Run) -> float:
     return float(values(run, "v_car").mean())
 
 
-def _delay(run: xr.Dataset) -> float:
+def _delay(run: Run) -> float:
     """When (s) the trailer's brakes begin to act, on the straight line between samples of the compression."""
     time, compression, eps = values(run, "time"), values(run, "compression"), float(run.attrs["eps"])
     first = int((compression > eps).argmax())
@@ -220,13 +219,13 @@ def _predicted_delay(p: Parameters) -> float:
     return float(brentq(lambda t: compression(t) - p.eps, 1e-9, 10.0))
 
 
-def _settled_compression(run: xr.Dataset) -> float:
+def _settled_compression(run: Run) -> float:
     """Mean compression (m) over the last two periods."""
     time, compression = values(run, "time"), values(run, "compression")
     periods = 2.0 / float(shunting_mode(scenario_of(run).parameters, float(values(run, "v_car")[-1])).frequency)
     return float(compression[time > time[-1] - periods].mean())
 
 
-def _mean_deceleration(run: xr.Dataset) -> float:
+def _mean_deceleration(run: Run) -> float:
     speed, time = values(run, "v_car"), values(run, "time")
     return float((speed[0] - speed[-1]) / (time[-1] - time[0]))

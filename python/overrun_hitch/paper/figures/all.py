@@ -6,9 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 
 import numpy as np
-import xarray as xr
 from matplotlib.figure import Figure
-from threadpoolctl import threadpool_limits
 
 from overrun_hitch.modes.locus import LocusCurve, computed, draw_loci
 from overrun_hitch.paper.figures import boundary as boundary_figure
@@ -18,6 +16,7 @@ from overrun_hitch.paper.figures import steady as steady_figure
 from overrun_hitch.paper.figures import stops as stops_figure
 from overrun_hitch.paper.study.curves import DAMPERS, Locus
 from overrun_hitch.paper.study.study import Study
+from overrun_hitch.results import Run
 from overrun_hitch.show import traces
 
 REAL_AXIS = (-5.4, 0.3)  # 1/s; the paper's ticks end at -5, its case viii a little beyond
@@ -45,10 +44,9 @@ def figures(study: Study, progress: Callable[[str], object] = lambda _: None) ->
         "stops": partial(stops_figure.draw, study.stops),
     }
     drawn = {}
-    with threadpool_limits(limits=1):  # see study.study
-        for name, draw in pictures.items():
-            progress(f"drawing {stem(name).replace('-', ' ')}")
-            drawn[name] = draw()
+    for name, draw in pictures.items():
+        progress(f"drawing {stem(name).replace('-', ' ')}")
+        drawn[name] = draw()
     return drawn
 
 
@@ -66,7 +64,7 @@ def _curve(locus: Locus) -> LocusCurve:
     return computed(locus.curve.label, locus.curve.parameters, locus.curve.V, DAMPERS, measured)
 
 
-def _traces(run: xr.Dataset, limits: tuple[tuple[float, float], ...]) -> Figure:
+def _traces(run: Run, limits: tuple[tuple[float, float], ...]) -> Figure:
     figure = traces.draw(run)
     for axes, (low, high) in zip(figure.axes, limits, strict=True):
         axes.set_ylim(low, high)

@@ -6,9 +6,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-import xarray as xr
-from threadpoolctl import threadpool_limits
-
 from overrun_hitch.comparison.theory import compare
 from overrun_hitch.experiments.linearisation import Linearisation, at_steady_braking, at_zero_slip
 from overrun_hitch.experiments.step_brake import brake, car_alone
@@ -19,6 +16,7 @@ from overrun_hitch.paper.study.beyond import Boundary, Motion, Shunting, boundar
 from overrun_hitch.paper.study.curves import CURVES, Locus, V, locus
 from overrun_hitch.paper.study.device import Device, device
 from overrun_hitch.parameters import CASES, FIGURES, Parameters, Scenario
+from overrun_hitch.results import Run
 from overrun_hitch.theory.steady import steady
 
 SETTINGS = Settings(relative_tolerance=1e-8, communication_step=0.01)
@@ -50,9 +48,9 @@ class Study:
 
     fmu: str  # name of the file
     guid: str
-    runs: Mapping[str, xr.Dataset]  # figures 6a to 11
-    run_without_clearance: xr.Dataset  # figure 11 without clearance, for claim 13
-    alone: Mapping[str, xr.Dataset]  # the same figures, the car alone
+    runs: Mapping[str, Run]  # figures 6a to 11
+    run_without_clearance: Run  # figure 11 without clearance, for claim 13
+    alone: Mapping[str, Run]  # the same figures, the car alone
     loci: Mapping[str, tuple[Locus, ...]]  # figures 4 and 5
     steady_theory: Mapping[str, SteadyState]  # cases, and VARIATIONS of case ii
     steady_fmu: Mapping[str, SteadyState]
@@ -69,8 +67,7 @@ def study(fmu: Path, progress: Callable[[str], object] = lambda _: None, time_li
 
     A run may take `time_limit` s.
     """
-    # The matrices are tiny: with more than one thread, BLAS spends two thirds of the time waiting for its own.
-    with threadpool_limits(limits=1), guest_unit(fmu, time_limit) as unit:
+    with guest_unit(fmu, time_limit) as unit:
         progress("braking: figures 6 to 11")
         runs = {name: brake(unit, scenario, SETTINGS) for name, scenario in FIGURES.items()}
         alone = {name: brake(unit, car_alone(scenario), SETTINGS) for name, scenario in FIGURES.items()}
