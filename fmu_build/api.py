@@ -39,10 +39,6 @@ def build(
     >>> float(fmpy.simulate_fmu(fmu, stop_time=1, output=["x"])["x"][-1].round(4))
     0.3679
     """
-    try:
-        from .pipeline import build as pipeline
-    except ModuleNotFoundError as error:
-        raise BuildError(f"needs {error.name}: pip install 'overrun-hitch[build]'") from None
     if fmi not in (2, 3):
         raise BuildError(f"fmi = {fmi!r:.40} is not allowed; allowed: 2 or 3")
     text = modelica if isinstance(modelica, str) and re.search("[;\n]", modelica) else None
@@ -54,7 +50,13 @@ def build(
         if text is not None:
             source.write_text(text, encoding="utf-8")
         try:
-            pipeline(source, name, target, fmi, chosen, progress, references, [Path(library) for library in libraries])
+            if text is None:
+                from .rebuild import rebuild as make
+            else:
+                from .pipeline import build as make
+            make(source, name, target, fmi, chosen, progress, references, [Path(library) for library in libraries])
+        except ModuleNotFoundError as error:
+            raise BuildError(f"needs {error.name}: pip install 'overrun-hitch[build]'") from None
         except BuildError as error:
             raise BuildError(str(error).replace(f"{folder}{os.sep}", "")) from None  # a text's place is its line
     return target

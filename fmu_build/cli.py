@@ -56,7 +56,7 @@ def build_fmu(
         raise BuildError("name either the FMU to write (-o OUT.fmu) or a stage to look at (--show STAGE)")
     names = [name.strip() for name in platforms.split(",") if name.strip()]
     with _progress(shown=names != ["host"], verbose=verbose) as progress:
-        rebuild(modelica, class_name, output, fmi, names, progress, libraries or ())
+        rebuild(modelica, class_name, output, fmi, names, progress, libraries=libraries or ())
     typer.echo(output)
 
 

@@ -18,10 +18,11 @@ def rebuild(
     modelica: Path,
     class_name: str,
     output: Path,
-    fmi: int,
-    platforms: Sequence[str],
-    progress: Callable[[str], object],
-    libraries: Sequence[Path],
+    fmi: int = 2,
+    platforms: Sequence[str] = ("host",),
+    progress: Callable[[str], object] = lambda _: None,
+    references: bool = True,
+    libraries: Sequence[Path] = (),
 ) -> None:
     """As ``pipeline.build``, to the same bytes. Raises BuildError; then nothing is written."""
     chosen = named_platforms(platforms)
@@ -29,7 +30,8 @@ def rebuild(
 
     def parts() -> Iterator[Part]:
         progress("comparing with earlier builds")
-        yield from (os.path.abspath(modelica), class_name, f"FMI {fmi}", *tools(), *compilers(chosen))
+        yield from (os.path.abspath(modelica), class_name, f"FMI {fmi}, references: {references}")
+        yield from (*tools(), *compilers(chosen))
         yield from sorted(path for path in PACKAGE.rglob("*") if path.is_file() and path.suffix != ".pyc")
         yield from readable_files(modelica, libraries)
 
@@ -37,6 +39,6 @@ def rebuild(
         progress("loading SymPy and others")  # for which nobody should wait if nothing has changed
         from .pipeline import made
 
-        return made(modelica, class_name, fmi, chosen, progress, libraries=libraries)
+        return made(modelica, class_name, fmi, chosen, progress, references, libraries)
 
     write(output, kept(parts, make))

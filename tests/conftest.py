@@ -14,8 +14,8 @@ from hypothesis import settings
 # Matrices here are tiny, and the tests keep every core busy by themselves. Read when numpy is imported, below.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-# What tests build is built; what is kept of it is tests/kept.py's affair.
-os.environ["FMU_BUILD_CACHE"] = ""
+# Commands and tests that build the same share it, as users' do; what users have built has no part in it.
+os.environ["FMU_BUILD_CACHE"] = str(Path(__file__).parents[1] / "build" / "test-cache" / "fmu_build")
 
 from fmu_build.fmu.compile import compiler
 from overrun_hitch.fmu.messages import listening

@@ -18,7 +18,7 @@ from pathlib import Path
 import locket
 
 from fmu_build.fmu.compile import compiler
-from fmu_build.pipeline import build
+from fmu_build.rebuild import rebuild
 
 ROOT = Path(__file__).parents[1]
 LIBRARY = ROOT / "modelica" / "OverrunHitch"
@@ -55,7 +55,7 @@ def kept_fmus(*classes: str, fmi: int) -> dict[str, Path]:
 
     def make(folder: Path) -> None:
         for name, file in files.items():
-            build(LIBRARY, f"OverrunHitch.{name}", folder / file, fmi)
+            rebuild(LIBRARY, f"OverrunHitch.{name}", folder / file, fmi)
 
     folder = kept(make, "FMUs of the library", str(fmi), *classes)
     return {Path(file).stem: folder / file for file in files.values()}
