@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -98,7 +99,7 @@ def test_an_error_names_the_place_and_the_thing(case: str, modelica_file: Writer
 
 def run_command(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
     command = [sys.executable, "-m", "fmu_build", *arguments]
-    return subprocess.run(command, capture_output=True, text=True, check=False, env=environment or None)
+    return subprocess.run(command, capture_output=True, text=True, check=False, env={**os.environ, **environment})
 
 
 def test_the_command_line_ends_in_status_2_and_one_line(tmp_path: Path) -> None:
