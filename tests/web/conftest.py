@@ -34,7 +34,8 @@ def packages() -> Path:
     if shutil.which("node") is None:
         pytest.skip("Node (node) is not installed")
     folder = WEB / "node_modules"
-    if not (folder / ".package-lock.json").exists():
+    installed, wanted = folder / ".package-lock.json", WEB / "package-lock.json"
+    if not installed.exists() or installed.stat().st_mtime < wanted.stat().st_mtime:  # as make sees it
         pytest.skip("the packages of web/ are not installed (make web)")
     return folder
 

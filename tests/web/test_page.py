@@ -27,7 +27,9 @@ TOLERANCE = 1e-9  # relative to the largest value of a trace
 SCENARIOS = {
     **{f"Figure {name}": scenario for name, scenario in FIGURES.items()},
     **{f"Case {name}": asked_scenario(None, name, {}) for name in CASES},
+    "Link": asked_scenario(None, None, {"sigma": 0.25, "F_f": 50.0, "C_kt": 1.8e5, "M_t": 750.5}, brake_torque=812.5),
 }
+LINK = "sigma=0.25&F_f=50&C_kt=180000&M_t=750.5&brake_torque=812.5"
 pytestmark = [
     pytest.mark.full,
     pytest.mark.platforms,
@@ -39,7 +41,7 @@ def test_the_page(run_node: NodeRunner, unit_folder: Path, car_trailer_fmu: Path
     """All of web/test/page.test.ts in one test, because it takes a minute; then what it has taken from the page."""
     page = unit_folder / "index.html"
     with served(page) as address:
-        run_node("page", PAGE=str(page), SERVED=address, BROWSER=str(BROWSER), OUT=str(tmp_path))
+        run_node("page", PAGE=str(page), SERVED=address, BROWSER=str(BROWSER), LINK=LINK, OUT=str(tmp_path))
     shown = json.loads((tmp_path / "shown.json").read_text(encoding="utf-8"))
     for name, scenario in SCENARIOS.items():
         the_run_is_that_of_the_native_unit(tmp_path / f"{name}.csv", step_brake(scenario, fmu=car_trailer_fmu))
@@ -58,9 +60,13 @@ def the_run_is_that_of_the_native_unit(table: Path, expected: xr.Dataset) -> Non
 def what_repeats_the_run_says_the_same(file: Path, shown: dict[str, Any], scenario: Scenario) -> None:
     datum = FIGURES["8"].parameters
     assert datum.changed(parameters_of(file)) == scenario.parameters
-    assert asked(shown["python"]).parameters == scenario.parameters
+    again = asked(shown["python"])
+    assert (again.parameters, again.brake_torque) == (scenario.parameters, scenario.brake_torque)
     values = dict(pair.split("=") for pair in shown["link"][1:].split("&")[:-3])
-    assert datum.changed(values) == scenario.parameters
+    torque = values.pop("brake_torque", "1000")
+    assert (datum.changed(values), float(torque)) == (scenario.parameters, scenario.brake_torque)
+    command = "# hitch run --parameters hitch.toml" + (f" --brake-torque {torque}" if torque != "1000" else "")
+    assert file.read_text(encoding="utf-8").splitlines()[0] == command
     critical = critical_damping(scenario.parameters, scenario.parameters.V_0)
     assert f"C_crit at V_0 N.s/m{critical:.4g}\N{EN DASH}" in shown["rows"]
     agreed = sum(row.endswith("agrees") for row in shown["rows"])  # the rest of the rows is test_comparison's
@@ -73,8 +79,8 @@ def asked(line: str) -> Scenario:
 
     class Hitch:
         @staticmethod
-        def run(figure: str, **changes: Any) -> None:
-            calls.append(asked_scenario(figure, None, changes))
+        def run(figure: str, brake_torque: float | None = None, **changes: float) -> None:
+            calls.append(asked_scenario(figure, None, changes, brake_torque=brake_torque))
 
     exec(line.removeprefix("import overrun_hitch as hitch; "), {"hitch": Hitch})
     return calls[0]

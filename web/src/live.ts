@@ -149,4 +149,5 @@ for (const key of ["x", "y", "show"] as const) {
   });
 }
 addEventListener("hashchange", follow);
+addEventListener("resize", settled(() => attempt(state.values, false), QUIET));
 follow();

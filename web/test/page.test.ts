@@ -1,6 +1,6 @@
 /** The page in a browser without a window. What it shows and hands out goes to OUT, for tests/web/test_page.py. */
 import assert from "node:assert/strict";
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
@@ -59,25 +59,50 @@ function fields(page: Page): Promise<Record<string, string>> {
   );
 }
 
-test("figures and cases, by the list of presets", async () => {
+/** Downloads and texts of what is shown, under a name. */
+async function taken(page: Page, name: string): Promise<object> {
+  await quiet(page);
+  await download(page, "csv", `${name}.csv`);
+  await download(page, "toml", `${name}.toml`);
+  return {
+    rows: await page.$$eval("#numbers tr", (rows) => rows.map((row) => row.textContent)),
+    reasons: await page.textContent("#reasons"),
+    python: await page.textContent("#python"),
+    link: await page.evaluate(() => location.hash),
+  };
+}
+
+test("figures and cases by the list of presets, other values by a link", async () => {
   const page = await opened();
   const shown: Record<string, object> = {};
   for (const [word, table] of [["Figure", PAPER.figures], ["Case", PAPER.cases]] as const) {
     for (const name of Object.keys(table)) {
       await page.selectOption("#preset", `${word} ${name}`);
-      await quiet(page);
-      await download(page, "csv", `${word} ${name}.csv`);
-      await download(page, "toml", `${word} ${name}.toml`);
-      shown[`${word} ${name}`] = {
-        rows: await page.$$eval("#numbers tr", (rows) => rows.map((row) => row.textContent)),
-        reasons: await page.textContent("#reasons"),
-        python: await page.textContent("#python"),
-        link: await page.evaluate(() => location.hash),
-      };
+      shown[`${word} ${name}`] = await taken(page, `${word} ${name}`);
     }
   }
   await download(page, "svg", "run.svg");
+  await page.goto(`${address}#${process.env["LINK"]!}`);
+  shown["Link"] = await taken(page, "Link");
   writeFileSync(join(out, "shown.json"), JSON.stringify(shown));
+});
+
+test("the drawing moves at real time or slower, until it is held", async () => {
+  const page = await opened("", { reducedMotion: "no-preference" });
+  const shown = () => page.evaluate(() => document.getElementById("trailer-drawn")!.getAttribute("transform"));
+  const time = async () => Number(await page.inputValue("#time"));
+  await page.selectOption("#slowness", "2");
+  const [began, from] = [Date.now(), await time()];
+  const first = await shown();
+  await page.waitForTimeout(600);
+  const [passed, to] = [(Date.now() - began) / 1000, await time()];
+  assert(to > from && to - from < passed / 2 + 0.1, `${to - from} s are shown in ${passed} s`);
+  assert.notEqual(await shown(), first);
+  await page.click("#play");
+  const held = await time();
+  await page.waitForTimeout(300);
+  assert.equal(await time(), held);
+  assert.equal(await page.textContent("#play"), "Play");
 });
 
 test("fifty values of a slider, and the map: how long they take", async () => {
@@ -203,6 +228,12 @@ test("a click on the map takes its values, which are those that it shows", async
   await page.locator("#map svg g[aria-label=rect] rect").nth(30 * 15 + 20).click({ force: true });
   await quiet(page);
   assert.match(await page.evaluate(() => location.hash), /^#M_t=1570&C=1400&/);
+  await download(page, "csv", "clicked.csv");
+  const rows = readFileSync(join(out, "clicked.csv"), "utf8").trim().split("\r\n").slice(1);
+  const a_car = rows.map((row) => Number(row.split(",")[3]));
+  const jerks = a_car.slice(11).map((a, i) => Math.abs(a - a_car[i + 10]!) / 0.01); // from 0.1 s on
+  const label = (await page.getAttribute("#map", "aria-label"))!;
+  assert.equal(label.match(/peak jerk .*: ([\d.]+)/)![1], Math.max(...jerks).toPrecision(3));
 });
 
 for (const [name, options] of Object.entries({
