@@ -51,7 +51,6 @@ void settle_later(State *s, unsigned reference)
         s->settled = false;
         s->freshness = STALE;
     } else if (s->freshness != STALE) {
-        memset(s->since, 0, s->freshness == CURRENT ? sizeof s->since : 0);
         s->since[input] = true;
         s->freshness = STALE_BY_INPUTS;
     }
@@ -90,6 +89,7 @@ void settle_outputs(State *s)
     if (s->freshness != CURRENT) {
         model_outputs(&s->v, s->holds);
         coupling_values_show(s);
+        memset(s->since, 0, sizeof s->since); /* that variables are read leaves no trace */
         s->freshness = CURRENT;
     }
 }

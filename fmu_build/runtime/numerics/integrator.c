@@ -265,7 +265,7 @@ static bool step(Integrator *m, Rodas *r, Variables *v, const bool holds[], doub
 bool integrator_step(Integrator *m, Rodas *r, Variables *v, const bool holds[], const Ramp *ramp, bool derived,
                      double target, double tolerance, Point *arrival, Message *why)
 {
-    m->counters.evaluations += !derived;
+    m->counters.evaluations++;
     const int not_finite = rodas_start(r, v, holds, ramp, derived);
     if (not_finite != FINITE) {
         return explain_start(r, v, not_finite, why);

@@ -13,7 +13,7 @@ typedef struct {
     int64_t steps;       /* accepted, those shortened to an event among them */
     int64_t rejected;    /* because of the error estimate, or of a value that is not finite */
     int64_t repeated;    /* good, but repeated with the length that ends at an event */
-    int64_t evaluations; /* of the derivatives */
+    int64_t evaluations; /* of the derivatives; at the start of a step, too, where the caller has had them computed */
     int64_t jacobians;
     int64_t events;
 } Counters;

@@ -68,21 +68,8 @@ void probe_brief_coefficients(double *gamma, double a[6], double c[12], double w
     memcpy(d, GRK4T_D, sizeof GRK4T_D);
 }
 
-typedef int Try(Rodas *r, double length, Variables *v, const bool holds[]);
-
-static BriefMatrix matrix;
-static int most_steps; /* with one matrix */
-
-static int brief_step(Rodas *r, double length, Variables *v, const bool holds[])
-{
-    const bool is_new = !(r->path.time - matrix.time < (most_steps - 0.5) * length);
-    if (is_new) {
-        (void)brief_factorize(&matrix, r, length);
-    }
-    return brief_try(r, &matrix, length, is_new, v, holds);
-}
-
-static void fixed_steps(Try *try, Rodas *r, double start, double end, int steps)
+/* By Rodas5P or, with a matrix, by the brief method, which makes a new one every few steps. */
+static void fixed_steps(BriefMatrix *matrix, int with_one, Rodas *r, double start, double end, int steps)
 {
     Variables v;
     const bool holds[AT_LEAST_ONE(N_RELATIONS)] = {false};
@@ -90,11 +77,18 @@ static void fixed_steps(Try *try, Rodas *r, double start, double end, int steps)
     for (int i = 0; i < N_VARIABLES; i++) {
         v.at[i] = variable_info[i].start;
     }
+    const double length = (end - start) / steps;
     for (int step = 0; step < steps; step++) {
         v.time = start + (end - start) * step / steps;
         (void)rodas_start(r, &v, holds, &ramp, false);
         (void)gradient(&ramp, &v, holds, r->derivative, r->jacobian, r->time_derivative);
-        (void)try(r, (end - start) / steps, &v, holds);
+        if (matrix == NULL) {
+            (void)rodas_try(r, length, &v, holds);
+        } else {
+            const bool is_new = step % with_one == 0;
+            (void)(is_new && brief_factorize(matrix, r, length));
+            (void)brief_try(r, matrix, length, is_new, &v, holds);
+        }
         memcpy(&v.at[FIRST_STATE], r->path.end, N_STATES * sizeof(double));
     }
 }
@@ -104,7 +98,7 @@ void probe_fixed_steps(double start, double end, int steps, double x[], double f
                        double embedded[])
 {
     Rodas r;
-    fixed_steps(rodas_try, &r, start, end, steps);
+    fixed_steps(NULL, 0, &r, start, end, steps);
     rodas_bend(&r);
     rodas_dense(&r.path, fraction, dense);
     memcpy(x, r.path.end, N_STATES * sizeof(double));
@@ -118,9 +112,8 @@ void probe_brief_steps(double start, double end, int steps, int with_one_matrix,
                        double dense[])
 {
     Rodas r;
-    matrix.time = -(double)INFINITY;
-    most_steps = with_one_matrix;
-    fixed_steps(brief_step, &r, start, end, steps);
+    BriefMatrix matrix;
+    fixed_steps(&matrix, with_one_matrix, &r, start, end, steps);
     brief_bend(&r);
     rodas_dense(&r.path, fraction, dense);
     memcpy(x, r.path.end, N_STATES * sizeof(double));

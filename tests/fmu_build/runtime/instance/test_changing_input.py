@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from random import Random
 
 import numpy as np
 import pytest
@@ -73,7 +74,7 @@ def test_error_is_at_most_twice_that_of_a_constant_input(car_trailer: Library, a
     assert np.all(changing < 2.0 * constant)
 
 
-@pytest.mark.parametrize("amplitude", [10.0, 200.0])
+@pytest.mark.parametrize("amplitude", [10.0, pytest.param(200.0, marks=pytest.mark.full)])
 def test_error_where_the_jacobian_soon_changes(car_trailer: Library, amplitude: float) -> None:
     """Tyres that lag, near the limit of friction, brakes that lag: it shunts out of the drawbar's compression."""
     device = {"sigma": 0.2, "mu": 0.8, "tau_b": 0.02}
@@ -101,3 +102,29 @@ def test_events_are_those_of_the_reference(car_trailer: Library, figure: str, st
     print(len(run.located), np.abs(run.located - reference.located).max(), run.counters)
     assert len(run.located) == len(reference.located) >= 5
     np.testing.assert_allclose(run.located, reference.located, rtol=0.0, atol=1e-5)
+
+
+def test_reading_and_going_back_leave_no_trace(car_trailer: Library) -> None:
+    """Of three units one is read wherever that may be done, and one makes each step twice, from its state as bytes."""
+    units = [Unit(car_trailer) for _ in range(3)]
+    plain, read, again = units
+    random = Random(1)
+    try:
+        for unit in units:
+            assert unit.set(**FIGURES["10"].parameters.model_dump()) == OK
+            assert unit.setup() == OK and unit.initialize() == OK
+        for i in range(400):
+            values = {"brake_torque": random.uniform(900.0, 1100.0)} | ({"grade": 1e-4 * i} if i % 3 == 0 else {})
+            for name, value in values.items():
+                assert [unit.set(**{name: value}) for unit in units] == [OK, OK, OK]
+                read.get(*random.sample(("a_car", "F_hitch", "brake_torque", "der(car.wheel.omega)"), 2))
+            saved = again.save()
+            status, loaded = again.deserialize(again.serialize(saved))
+            assert status == OK and again.step(0.001, 0.001 * i) == OK and again.restore(loaded) == OK
+            assert [unit.step(0.001, 0.001 * i) for unit in units] == [OK, OK, OK]
+            again.drop(saved)
+            again.drop(loaded)
+            assert plain.state() == read.state() == again.state()
+    finally:
+        for unit in units:
+            unit.free()
