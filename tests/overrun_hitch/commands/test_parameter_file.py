@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import pytest
 import typer
-import xarray as xr
 
 from overrun_hitch import cli
+from overrun_hitch.parameters import HitchError
+from overrun_hitch.sweeps.plan import Plan
 
 DEVICE = "[parameters]\nC = 300.0\nM_t = 750.0\n"
 SPEC = """name = "two"
@@ -33,12 +33,19 @@ def test_in_a_sweep(car_trailer_fmu: Path, tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.chdir(tmp_path)
     Path("device.toml").write_text(DEVICE, encoding="utf-8")
     Path("spec.toml").write_text(SPEC, encoding="utf-8")
-    command = ["sweep", "spec.toml", "--parameters", "device.toml", "--fmu", str(car_trailer_fmu), "--workers", "1"]
-    assert cli.main([*command, "--set", "V_0=30", "--output", "out"]) == 0
-    with xr.open_zarr("out/two.zarr", consolidated=False) as store:
-        fixed = json.loads(store.attrs["sweep"])["parameters"]
-        assert store["C"].values.tolist() == [100.0, 200.0]
-    assert (fixed["M_t"], fixed["k"], fixed["V_0"]) == (750.0, 5e3, 30.0)
+    plans: list[Plan] = []
+
+    def noted(plan: Plan, *_: object, **__: object) -> None:
+        plans.append(plan)
+        raise HitchError("as far as this goes")
+
+    monkeypatch.setattr("overrun_hitch.sweeps.engine.run_plan", noted)
+    command = ["sweep", "spec.toml", "--parameters", "device.toml", "--fmu", str(car_trailer_fmu), "--set", "V_0=30"]
+    assert cli.main(command) == 2
+    (plan,) = plans
+    assert plan.columns["C"].tolist() == [100.0, 200.0]
+    fixed = plan.job.fixed
+    assert (fixed["M_t"], fixed["k"], fixed["V_0"], "C" in fixed) == (750.0, 5e3, 30.0, False)
 
 
 def test_what_is_varied_is_not_set(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
