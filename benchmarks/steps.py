@@ -17,7 +17,8 @@ A C program sets the input, makes the step and reads nine outputs. Of `CarTraile
 figure 8, constant, or with a ripple of 3 rad/s, slow (10 N.m) or brisk (200 N.m); of `Trailer` the speed of a car that
 such a torque slows. Braking: sixty seconds with ten brake applications of 1500 N.m and a stop. Runs repeat the same
 numbers; of each step the shortest time counts, with the clock's own, some 25 ns. Right-hand sides are counted and
-depend on no machine; those of the prediction behind `F_hitch_hold`, about as many again, are not among them.
+depend on no machine, that at the start of a step too, of which most is known from the end of the last one; those of the
+prediction behind `F_hitch_hold`, about as many again, are not among them.
 
 """
 COLUMNS = (

@@ -24,7 +24,7 @@ static const double BRIEF_SAMPLE = 0.25;
  * is off by, which is of second order, twenty times as much is in the estimate as in the solution (0.283 to 0.0146, by
  * the coefficients). Where it has not served, fewer steps are made with the next one; slowly they become more again. */
 static const double MATRIX_ERROR = 0.05;
-static const double MOST_REACH = 8.0;
+static const double MOST_REACH = 16.0;
 static const double MORE_REACH = 0.125;
 static const double SAME_LENGTH = 1e-6;
 

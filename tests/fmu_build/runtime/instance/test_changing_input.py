@@ -92,7 +92,7 @@ def test_right_hand_sides_of_a_step(car_trailer: Library, step: float) -> None:
     counters = drive(car_trailer, "8", 3.0, step).counters
     print(counters)
     assert counters.evaluations < 3.0 * DURATION / step + 3 * 30 * 8
-    assert step > 0.001 or counters.jacobians < counters.steps / 7  # one serves for eight
+    assert step > 0.001 or counters.jacobians < counters.steps / 10  # one serves for up to sixteen
 
 
 @pytest.mark.parametrize("step", [0.001, 0.01])
