@@ -62,6 +62,9 @@ static void brief_finish(Rodas *r, const double lost[])
 bool brief_factorize(BriefMatrix *matrix, const Rodas *r, double length)
 {
     const bool is_regular = lu_factorize(r->jacobian, 1.0 / (GRK4T_GAMMA * length), matrix->factors);
+    if (!is_regular) {
+        memset(matrix->factors, 0, sizeof matrix->factors); /* a saved state bears finite numbers alone */
+    }
     matrix->length = is_regular ? length : 0.0;
     matrix->time = r->path.time;
     matrix->depends_on_time = false;

@@ -8,11 +8,11 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from tests.fmu_build.runtime.hand_written import Model
+from tests.fmu_build.runtime.hand_written import Model, Variable
 from tests.fmu_build.runtime.numerics.rosenbrock import Method, all_trees, strictly_lower, trees
 from tests.fmu_build.runtime.numerics.test_rodas import smooth
 from tests.fmu_build.runtime.runtime_models import SMOOTH
-from tests.fmu_build.runtime.runtime_unit import Library
+from tests.fmu_build.runtime.runtime_unit import OK, Library, Unit
 
 
 class Coefficients(Method):
@@ -89,3 +89,29 @@ def test_estimate_sees_what_the_matrix_is_off_by(coefficients: Coefficients) -> 
     """Twenty times over what is in the solution: the term of second order in the error of the matrix."""
     sums = coefficients.gamma.sum(axis=1)
     assert abs((coefficients.b - coefficients.embedded) @ sums) > 19.0 * abs(coefficients.b @ sums)
+
+
+# At steps of 1/1024 s the matrix has a pivot that is zero: that of x, which stays zero.
+ZERO_PIVOT = Model(
+    name="ZeroPivot",
+    states=(Variable("x"), Variable("y", start=1.0)),
+    derivatives=f"v->der_x = {1.0 / (0.231 / 1024)!r} * v->x; v->der_y = v->u - v->y;",
+    jacobian={(0, 0): repr(1.0 / (0.231 / 1024)), (1, 1): "-1.0"},
+    inputs=(Variable("u"),),
+)
+
+
+def test_a_matrix_without_factors_is_no_obstacle(unit: Callable[..., Unit]) -> None:
+    """Neither to the steps nor to what is saved behind them."""
+    unit_ = unit(ZERO_PIVOT)
+    assert unit_.setup() == OK and unit_.initialize() == OK
+    y = 1.0
+    for i in range(30):
+        assert unit_.set(u=i % 2) == OK and unit_.step(1.0 / 1024, i / 1024) == OK
+        y = i % 2 + (y - i % 2) * np.exp(-1.0 / 1024)
+        saved = unit_.save()
+        status, loaded = unit_.deserialize(unit_.serialize(saved))
+        assert status == OK, unit_.log
+        unit_.drop(saved)
+        unit_.drop(loaded)
+    assert unit_.get("x", "y") == pytest.approx([0.0, y], rel=1e-6)
