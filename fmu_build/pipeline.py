@@ -11,7 +11,7 @@
     print_c            SortedModel, JacobianModel, Coupling -> CSources: variables.h, model.c
     print_elimination  Elimination -> CSources: elimination.h, elimination.c
     expose             SortedModel, Terminals -> Interface: variables in their roles, dependencies
-    simulate           Modelica text -> Simulation: another tool's results
+    simulations        Modelica text -> Simulations: another tool's results
     contents           FlatModel, Interface, CSources, Simulations -> files: all of the FMU but its binaries
     binaries           files -> files: a library for each platform
     packed             files -> the FMU
@@ -39,7 +39,7 @@ from .fmu.contents import contents
 from .fmu.interface import expose, model_identifier
 from .fmu.ports import declare
 from .frontend.flatten import flatten
-from .frontend.simulate import simulate
+from .frontend.simulate import simulations
 from .ir.models import CSources
 from .show import show_flat, show_jacobian, show_sorted
 
@@ -92,8 +92,7 @@ def made(
     progress("describing")
     interface = expose(model, jacobian, identifier, ports)
     examples = flat.examples if references else ()
-    simulations = [simulate(modelica, example, libraries) for example in examples]
-    files = contents(flat, interface, generated, simulations, fmi)
+    files = contents(flat, interface, generated, simulations(modelica, examples, libraries), fmi)
     compiled = binaries(files, identifier, platforms, fmi, progress)
     progress("packing")
     return packed(files | compiled)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -18,6 +20,12 @@ from .loading import load, run
 from .used_classes import UsedClasses
 
 REFERENCE_TOLERANCES = (1e-9, 1e-11)  # relative; the difference between the two tells the accuracy
+
+
+def simulations(path: Path, class_names: Sequence[str], libraries: Sequence[Path] = ()) -> list[Simulation]:
+    """`simulate` for each class, side by side: most of the work is rumoca's, in processes of their own."""
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        return list(pool.map(lambda name: simulate(path, name, libraries), class_names))
 
 
 def simulate(path: Path, class_name: str, libraries: Sequence[Path] = ()) -> Simulation:

@@ -50,7 +50,7 @@ def test_equal_parts_have_one_content(folder: Path, tmp_path: Path) -> None:
     assert len(entries(folder)) == len(different) + 1 and folder.stat().st_mode & 0o077 == 0
 
 
-@pytest.mark.parametrize("content", [b"", b"x", b"four score and seven"])
+@pytest.mark.parametrize("content", [b"", b"four"])
 def test_what_is_damaged_is_made_again(folder: Path, content: bytes) -> None:
     assert kept(of("a"), lambda: content) == content
     (entry,) = entries(folder)

@@ -24,11 +24,15 @@ def write(contents: Mapping[Path, bytes]) -> list[Path]:
 
 
 def write_csv(path: Path, columns: Mapping[str, Iterable[object]]) -> None:
-    """Write columns of equal length under their names ("time [s]"), every digit kept. HitchError if that cannot be."""
+    """Write columns of equal length under their names ("time [s]"), every digit kept, None as nan.
+
+    HitchError if that cannot be.
+    """
     text = io.StringIO(newline="")
     table = csv.writer(text, lineterminator="\n")
     table.writerow(columns)
-    table.writerows(zip(*columns.values(), strict=True))
+    for row in zip(*columns.values(), strict=True):
+        table.writerow([math.nan if cell is None else cell for cell in row])
     write({path: text.getvalue().encode()})
 
 

@@ -48,7 +48,10 @@ def heavy(modules: set[str]) -> set[str]:
     return {name.partition(".")[0] for name in modules} & declared() - LIGHT
 
 
-@pytest.mark.parametrize("arguments", [[], ["--help"], ["--version"], ["run", "--help"]])
+@pytest.mark.parametrize(
+    "arguments",
+    [["--help"], pytest.param([], marks=pytest.mark.full), pytest.param(["--version"], marks=pytest.mark.full)],
+)
 def test_help_loads_nothing(arguments: list[str]) -> None:
     assert heavy(loaded(*arguments)) == set()
 

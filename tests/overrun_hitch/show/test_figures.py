@@ -65,6 +65,7 @@ def test_the_same_run_gives_the_same_files(oracle_run: OracleRun, tmp_path: Path
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.png", "a.svg", "b.png", "b.svg"]
 
 
+@pytest.mark.full
 def test_files_are_those_of_savefig(oracle_run: OracleRun) -> None:
     """Which draws everything twice."""
     run = oracle_run(FIGURES["8"])

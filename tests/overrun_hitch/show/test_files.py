@@ -18,14 +18,16 @@ from hypothesis import strategies as st
 from overrun_hitch.parameters import HitchError
 from overrun_hitch.show.files import json_text, write, write_atomically, write_csv
 
-NUMBERS = st.lists(st.tuples(st.floats(), st.floats(width=32), st.integers(0, 1), st.sampled_from(["jacobi", "a, b"])))
+MAYBE = st.one_of(st.none(), st.floats(width=32))
+NUMBERS = st.lists(st.tuples(st.floats(), MAYBE, st.integers(0, 1), st.sampled_from(["jacobi", "a, b"])))
 
 
 def by_hand(rows: list[tuple[object, ...]], names: list[str]) -> bytes:
     text = io.StringIO(newline="")
     table = csv.writer(text, lineterminator="\n")
     table.writerow(names)
-    table.writerows([repr(cell) if isinstance(cell, float) else cell for cell in row] for row in rows)
+    words = {None: "nan"}
+    table.writerows([repr(cell) if isinstance(cell, float) else words.get(cell, cell) for cell in row] for row in rows)
     return text.getvalue().encode()
 
 
