@@ -142,7 +142,8 @@ def _draw_equal_dampers(axes: Axes, curves: Sequence[LocusCurve]) -> None:
     tops: dict[float, complex] = {}
     for C in dampers:
         values = [curve.at(C) for curve in stacked if C in curve.marks]
-        axes.plot([value.real for value in values], [value.imag for value in values], **EQUAL_C)
+        name = f"$C$ = {_number(C)} N·s/m"
+        axes.plot([value.real for value in values], [value.imag for value in values], label=name, **EQUAL_C)
         tops[float(C)] = max(values, key=lambda value: value.imag)
     (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
     shown = {C: top for C, top in tops.items() if left <= top.real <= right and low <= top.imag <= high}

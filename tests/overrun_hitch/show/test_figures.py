@@ -28,8 +28,8 @@ def test_five_traces_with_units(oracle_run: OracleRun) -> None:
 
 def test_a_notebook_shows_them(oracle_run: OracleRun) -> None:
     """Jupyter asks for this method (IPython, Integrating your objects)."""
-    picture = draw(oracle_run(FIGURES["8"]))
-    assert picture._repr_svg_().startswith("<?xml") and "<svg" in picture._repr_svg_()  # type: ignore[attr-defined]
+    picture = draw(oracle_run(FIGURES["8"]))._repr_svg_()  # type: ignore[attr-defined]
+    assert picture.startswith("<?xml") and "<svg" in picture
 
 
 def told(axes: Axes) -> list[str]:

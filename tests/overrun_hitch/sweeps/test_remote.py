@@ -37,7 +37,7 @@ def sockets_that_dask_leaves() -> Iterator[None]:
 def documented(program: str) -> list[str]:
     """What docs/sweep.md says after the name of a program."""
     text = (Path(__file__).parents[3] / "docs" / "sweep.md").read_text(encoding="utf-8")
-    return next(line for line in text.splitlines() if line.startswith(f"    {program} ")).split(program)[1].split()
+    return next(line for line in text.splitlines() if line.startswith(f"{program} ")).split(program)[1].split()
 
 
 def certificate(folder: Path) -> Path:

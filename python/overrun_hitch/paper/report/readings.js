@@ -40,7 +40,9 @@ function read(panel, point) {
     .sort((one, other) => away(one) - away(other));
   const nearest = others.length && away(others[0]) < REACH ? others[0] : null;
   if (nearest && !found.some((value) => away(value) < away(nearest))) {
-    const lines = [nearest.name, `${panel.x.name}: ${written(nearest.x, panel.x.unit)}`];
+    const here = others.filter((value) => Math.hypot(value.left - nearest.left, value.top - nearest.top) < 1);
+    const names = [...new Set(here.map((value) => value.name))];
+    const lines = [...names, `${panel.x.name}: ${written(nearest.x, panel.x.unit)}`];
     return { lines: [...lines, `${panel.y.name}: ${written(nearest.y, panel.y.unit)}`], marks: [nearest] };
   }
   const lines = found.map((value) => `${value.name}: ${written(value.y, panel.y.unit)}`);

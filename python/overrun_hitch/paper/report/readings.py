@@ -55,7 +55,7 @@ def _lines(axes: Axes) -> Iterator[dict[str, Any]]:
         x, y = np.asarray(line.get_xdata(), dtype=float), np.asarray(line.get_ydata(), dtype=float)
         if line.get_transform() != axes.transData:  # across the panel, as axhline draws it
             x = np.asarray(axes.get_xlim())
-        if not _name(line).startswith("_") and len(x) and len(np.unique(x)) == len(x):
+        if not _name(line).startswith("_") and len(x):
             is_function = line.get_linestyle() != "None" and bool((np.diff(x) > 0.0).all())
             yield _curve(_name(line), x, y, is_function)
 
