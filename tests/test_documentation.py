@@ -121,7 +121,9 @@ def test_what_a_page_shows(page: Path, tmp_path: Path, monkeypatch: pytest.Monke
     for command, expected in sessions(page):
         program, *arguments = shlex.split(command, comments=True)
         call = [sys.executable, *COMMANDS[program], *arguments]
-        done = subprocess.run(call, cwd=tmp_path, env=new, stdout=PIPE, stderr=STDOUT, text=True, check=False, timeout=300)
+        done = subprocess.run(
+            call, cwd=tmp_path, env=new, stdout=PIPE, stderr=STDOUT, text=True, check=False, timeout=300
+        )
         told, shown = (SECONDS.sub(r"\1 ... s", text) for text in (done.stdout, expected))
         is_shown = doctest.OutputChecker().check_output(shown, told, doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE)
         is_whole = doctest.ELLIPSIS_MARKER not in expected  # what is cut short might be a fault
