@@ -32,7 +32,7 @@ def ran(packages: list[str], code: str, *arguments: str) -> subprocess.Completed
         ),
         (["SALib"], HITCH, ["sensitivity"], "pip install 'overrun-hitch[sweep]'"),
         (["jinja2"], HITCH, ["report"], "pip install 'overrun-hitch[report]'"),
-        (["sympy"], FMU_BUILD, ["M.mo", "M", "-o", "M.fmu"], "needs sympy: pip install 'overrun-hitch[build]'"),
+        (["sympy"], FMU_BUILD, ["M.mo", "M", "--show", "sorted"], "needs sympy: pip install 'overrun-hitch[build]'"),
     ],
 )
 def test_which_extra_brings_it(packages: list[str], code: str, arguments: list[str], told: str) -> None:

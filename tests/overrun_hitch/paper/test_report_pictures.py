@@ -97,7 +97,7 @@ def test_nothing_of_a_label_becomes_part_of_the_page() -> None:
 
 def test_values_are_those_of_the_study(paper_figures: dict[str, Figure], paper_study: Study) -> None:
     accelerations, compression, _ = readings(paper_figures["8"])
-    run = paper_study.runs["8"]
+    run = paper_study.runs["8"].dataset()
     assert accelerations["y"] == {"name": "Acceleration", "unit": "m/s²", "ends": (-8.0, 1.0), "log": False}
     assert [curve["name"] for curve in accelerations["curves"]] == ["car", "trailer", "steady (theory)"]
     assert accelerations["x"]["name"] == compression["x"]["name"] == "Time"
@@ -132,7 +132,7 @@ def test_the_pointer_reads_them(paper_figures: dict[str, Figure], paper_study: S
         capture_output=True, text=True, encoding="utf-8", check=True, timeout=120,
     )  # fmt: skip
     told = [line.text_content() for line in lxml.html.fromstring(done.stdout).xpath("//output/div")]
-    at = paper_study.runs["8"].sel(time=3.0, method="nearest")
+    at = paper_study.runs["8"].dataset().sel(time=3.0, method="nearest")
     assert told[0] == "Time: 3 s" and told[1].startswith("car: ") and told[3].startswith("steady (theory): ")
     for line, name in zip(told[1:3], ("a_car", "a_trailer"), strict=True):
         value, unit = line.partition(": ")[2].replace("\N{MINUS SIGN}", "-").split()
