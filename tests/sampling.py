@@ -9,11 +9,15 @@ import pytest
 from _pytest.mark import ParameterSet
 
 
-def spread(*axes: Iterable[object]) -> list[ParameterSet]:
-    """The grid of the axes, sampled by as many points as the longest has: every value of every axis is in one."""
+def spread(*axes: Iterable[object], every: int = 1) -> list[ParameterSet]:
+    """The grid of the axes, sampled by as many points as the longest has: every value of every axis is in one.
+
+    With `every` 2, of the longest every other value is.
+    """
     values = [list(axis) for axis in axes]
     longest = max(map(len, values))
-    chosen = {tuple(n % len(axis) for axis in values) for n in range(longest)}
+    points = range(-(-longest // every))
+    chosen = {tuple((n * every if len(axis) == longest else n) % len(axis) for axis in values) for n in points}
     return [
         pytest.param(*(axis[n] for axis, n in zip(values, place, strict=True)), marks=_full(place not in chosen))
         for place in product(*(range(len(axis)) for axis in values))

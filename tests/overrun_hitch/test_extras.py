@@ -30,7 +30,7 @@ def ran(packages: list[str], code: str, *arguments: str) -> subprocess.Completed
             ["sweep", "spec.toml"],
             "needs dask, which is not installed: pip install 'overrun-hitch[sweep]'",
         ),
-        (["SALib"], HITCH, ["sensitivity"], "pip install 'overrun-hitch[sweep]'"),
+        pytest.param(["SALib"], HITCH, ["sensitivity"], "pip install 'overrun-hitch[sweep]'", marks=pytest.mark.full),
         (["jinja2"], HITCH, ["report"], "pip install 'overrun-hitch[report]'"),
         (["sympy"], FMU_BUILD, ["M.mo", "M", "--show", "sorted"], "needs sympy: pip install 'overrun-hitch[build]'"),
     ],

@@ -215,6 +215,7 @@ def test_a_run_that_ends_early_or_runs_away_differs(brake: Brake) -> None:
     assert np.abs(below.get_ylim()).max() < 60.0
 
 
+@pytest.mark.full
 def test_pictures_have_units_and_legends_off_the_curves(brake: Brake) -> None:
     reference, *others = [brake("6a", C=C) for C in (20.0, 21.0, 22.0, 25.0)]
     comparisons = [compare_runs(reference, one, label, Allowed()) for label, one in zip("BCD", others, strict=True)]

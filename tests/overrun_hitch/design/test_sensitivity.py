@@ -29,6 +29,7 @@ def runs(fmu: Path, store: Path) -> xr.Dataset:
     return read_sweep(store).load()
 
 
+@pytest.mark.full
 def test_they_are_those_of_linear_theory(car_trailer_fmu: Path, tmp_path: Path) -> None:
     """The same sample, in theory at the speed half way through the run of 6 s."""
     sweep = runs(car_trailer_fmu, tmp_path / "small.zarr")

@@ -27,6 +27,7 @@ def test_at_zero_slip_it_is_the_papers(case: str, car_trailer_fmu: Path) -> None
     print(f"case {case}: largest difference of an entry {found.difference.max():.1e}")
 
 
+@pytest.mark.full
 def test_another_parameter_is_another_matrix(car_trailer_fmu: Path) -> None:
     """The comparison can fail: each of these parameters is in the matrix."""
     for name in ("M_c", "M_t", "I_c", "I_t", "R_c", "R_t", "C_kc", "C_kt", "k", "C", "r"):

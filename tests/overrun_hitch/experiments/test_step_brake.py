@@ -32,7 +32,7 @@ from tests.sampling import sampled, spread
 @pytest.mark.parametrize(
     ("tolerance", "metres", "speed"), [(1e-8, 2e-6, 2e-5), pytest.param(1e-6, 1e-4, 1e-3, marks=pytest.mark.full)]
 )
-@pytest.mark.parametrize(("figure", "milliseconds"), spread(["6a", "6b", "8", "10"], [1, 10, 50, 100]))
+@pytest.mark.parametrize(("figure", "milliseconds"), spread(["6a", "6b", "8", "10"], [1, 10, 50, 100], every=2))
 def test_it_follows_the_oracle(
     car_trailer_fmu: Path, figure: str, tolerance: float, metres: float, speed: float, milliseconds: int
 ) -> None:

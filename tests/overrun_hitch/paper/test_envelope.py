@@ -154,6 +154,7 @@ def test_every_case_does(unit: HitchUnit, case: str, torque: float) -> None:
     assert np.ptp(off) < 3e-3
 
 
+@pytest.mark.full
 def test_what_the_fmu_adds_to_the_linear_equations_is_slip(unit: HitchUnit) -> None:
     """Tyre slopes by v less by 1 - slip, and the speed that is not lost while the slip builds up."""
     p = case_ii(20.0)

@@ -49,6 +49,7 @@ def test_the_time_limit_is_that_of_a_run(car_trailer_fmu: Path, tmp_path: Path) 
     assert (found["status"].values == FINISHED).all()
 
 
+@pytest.mark.full
 def test_the_fmus_of_a_sweep_do_not_meet(car_trailer_fmu: Path, tmp_path: Path) -> None:
     set_k = 'setenv("STRANGERS_FACTOR", "{}", 0); k *= atof(getenv("STRANGERS_FACTOR"));'
     fmus = [stranger(car_trailer_fmu, tmp_path / f"{x}.fmu", set_k=set_k.format(x)) for x in (1.0, 1.5)]

@@ -35,7 +35,7 @@ equation
 end M;"""
 
 
-@pytest.mark.parametrize(("definition", "use"), spread(DEFINITIONS, USES))
+@pytest.mark.parametrize(("definition", "use"), spread(DEFINITIONS, USES, every=2))
 def test_equations_in_any_order(definition: str, use: str, co_simulation: Way) -> None:
     declared, defines, value = DEFINITIONS[definition]
     more, uses = USES[use]

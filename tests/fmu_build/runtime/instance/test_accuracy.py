@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 
 from tests.fmu_build.runtime.runtime_models import CAR_TRAILER
 from tests.fmu_build.runtime.runtime_unit import OK, Unit
+from tests.sampling import sampled
 
 K = 5480.0
 FIGURES = {
@@ -66,7 +67,7 @@ def run(unit: Callable[..., Unit]) -> Callable[..., tuple[np.ndarray, Unit]]:
     return simulate
 
 
-@pytest.mark.parametrize("figure", FIGURES)
+@pytest.mark.parametrize("figure", sampled(FIGURES, ["6b", "10"]))
 @pytest.mark.parametrize(
     ("tolerance", "compression", "speed"),
     [pytest.param(1e-6, 1e-4, 1e-3, marks=pytest.mark.full), (1e-8, 2e-6, 2e-5)],
