@@ -26,6 +26,7 @@ def unit(car_trailer_fmu: Path, tmp_path: Path) -> Iterator[Unit]:
     unit.slave.freeInstance()
 
 
+@pytest.mark.full
 def test_a_million_steps_of_a_sixtieth_second(unit: Unit) -> None:
     """Coasting: time summed up by the caller, the last step a little beyond the stop time, and nothing moves."""
     step, count = 1.0 / 60.0, 1_000_000

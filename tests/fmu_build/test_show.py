@@ -120,6 +120,7 @@ def test_c_is_that_of_the_fmu(place: Callable[[str], tuple[Path, str]], built: B
         assert show(*place("M"), "c").encode() == fmu.read("sources/model.c")
 
 
+@pytest.mark.full
 def test_the_command_prints_and_writes_nothing(place: Callable[[str], tuple[Path, str]], tmp_path: Path) -> None:
     path, name = place("M")
     result = run_command(str(path), name, "--show", "sorted")

@@ -61,8 +61,8 @@ def test_the_page_judges_as_hitch_run(run_node: NodeRunner, car_trailer_fmu: Pat
     cases: list[dict[str, Any]] = []
     with opened_unit(car_trailer_fmu) as unit:
         for scenario in scenarios():
-            run = brake(unit, scenario, Settings())
-            alone = brake(unit, car_alone(scenario), Settings())
+            run = brake(unit, scenario, Settings()).dataset()
+            alone = brake(unit, car_alone(scenario), Settings()).dataset()
             values = {**scenario.parameters.model_dump(), "brake_torque": scenario.brake_torque}
             rows = [
                 {"quantity": row.quantity, "theory": row.expected, "run": row.found, "verdict": row.verdict,

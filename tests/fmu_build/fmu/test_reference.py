@@ -29,6 +29,7 @@ EXAMPLE = "model Example\n  {}\nequation\n  {}\n  annotation({});\nend Example;"
 EXPERIMENT = "experiment(StopTime=2, Interval=0.1)"
 
 
+@pytest.mark.full
 def test_a_low_pass(modelica_file: Writer, tmp_path: Path) -> None:
     build(
         modelica_file(UNIT + EXAMPLE.format("M filter(rate=3);", "filter.u = 5;", EXPERIMENT)), "M", tmp_path / "M.fmu"

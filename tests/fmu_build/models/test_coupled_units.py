@@ -18,7 +18,7 @@ from scipy.integrate import solve_ivp
 
 from fmu_build.pipeline import build
 from tests.kept import kept_fmus
-from tests.sampling import sampled
+from tests.sampling import sampled, spread
 from tests.unit import Unit
 
 NAMES = ("Trailer", "Car")
@@ -53,8 +53,7 @@ def start(fmus: Fmus, car_trailer_fmu: Path, tmp_path: Path) -> Iterator[Callabl
         unit.slave.freeInstance()
 
 
-@pytest.mark.parametrize("version", VERSIONS)
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(("name", "version"), spread(NAMES, VERSIONS))
 def test_both_checkers_find_nothing(fmus: Fmus, name: str, version: int) -> None:
     checked_by_both(fmus[name, version], version)
 

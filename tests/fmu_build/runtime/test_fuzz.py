@@ -12,7 +12,7 @@ from tests.fmu_build.runtime.fuzz import fuzzer
 from tests.fmu_build.runtime.generated_models import EVENTS, generate
 from tests.fmu_build.runtime.hand_written import Model
 from tests.fmu_build.runtime.runtime_models import CAR_TRAILER, OSCILLATOR
-from tests.sampling import sampled, spread
+from tests.sampling import spread
 
 pytestmark = pytest.mark.usefixtures("sanitizers")
 
@@ -21,8 +21,9 @@ def named(value: Model | int) -> str:
     return value.name if isinstance(value, Model) else str(value)
 
 
-@pytest.mark.parametrize("fmi", sampled([2, 3], [2]))
-@pytest.mark.parametrize("model", sampled([CAR_TRAILER, OSCILLATOR, TOWED], [TOWED]), ids=named)
+@pytest.mark.full
+@pytest.mark.parametrize("fmi", [2, 3])
+@pytest.mark.parametrize("model", [CAR_TRAILER, OSCILLATOR, TOWED], ids=named)
 def test_random_calls(model: Model, fmi: int) -> None:
     random_calls(fuzzer(model, fmi))
 

@@ -80,6 +80,7 @@ def test_what_the_quick_commands_load(
     assert not modules & {"matplotlib.pyplot", "scipy.integrate", "scipy.interpolate", "scipy.stats"}
 
 
+@pytest.mark.full
 def test_what_a_guest_loads() -> None:
     """It starts in every run."""
     code = "[__import__(name) for name in ('overrun_hitch.experiments.drive', 'overrun_hitch.fmu.opening')]"

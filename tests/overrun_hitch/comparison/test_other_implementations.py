@@ -150,6 +150,7 @@ def test_a_mapping_that_is_none(toml: str, message: str, car_trailer_fmu: Path, 
     assert message in str(caught.value) and "\n" not in str(caught.value)
 
 
+@pytest.mark.full
 def test_one_that_fails_is_one_line_and_the_others_are_judged(
     car_trailer_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -255,6 +255,7 @@ def test_a_claim_that_does_not_hold(paper_study: Study, monkeypatch: pytest.Monk
     assert "does not hold" not in page.texts["claim-2"]
 
 
+@pytest.mark.full
 def test_each_finding_can_fail(paper_study: Study, made: Callable[..., report.Report]) -> None:
     engaged = dict(paper_study.at_zero_slip)
     matrix = engaged["iv"].fmu * (1.0 + 1e-8 * np.eye(6))

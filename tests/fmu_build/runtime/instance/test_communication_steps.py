@@ -18,7 +18,6 @@ from overrun_hitch.parameters import FIGURES, Parameters
 from tests.fmu_build.runtime.generated_models import generate
 from tests.fmu_build.runtime.runtime_unit import OK, Counters, Library, Unit, compile_model
 from tests.oracles import radau
-from tests.sampling import sampled
 
 Floats = NDArray[np.float64]
 
@@ -120,7 +119,8 @@ def table(figure: str, runs: list[Run], free: Counters, oracle: radau.Trajectory
     return "\n".join(lines)
 
 
-@pytest.mark.parametrize("figure", sampled(["6a", "8", "10"], ["10"]))
+@pytest.mark.full
+@pytest.mark.parametrize("figure", ["6a", "8", "10"])
 def test_error_steps_and_events_for_any_communication_steps(car_trailer: Library, figure: str) -> None:
     """Figures with many events, with none, and with clearance: the error is flat, and so is the number of steps.
 
