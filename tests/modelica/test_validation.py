@@ -14,7 +14,7 @@ from tests.unit import Unit
 
 CLASSES = (LIBRARY / "Validation" / "package.order").read_text().split()
 # The others in `make test-all`.
-SAMPLED = {"Drawbar", "Tyre", "WheelAtRest", "SteadyBraking", "BrakeLag"}
+SAMPLED = {"Drawbar", "WheelAtRest", "SteadyBraking"}
 STEPS = 500
 BOUND = 1e-6  # of the largest value that is expected
 

@@ -9,7 +9,6 @@ import pytest
 
 from fmu_build.fmu.compile import compile_library, host_platform
 from tests.platforms.conftest import Program
-from tests.sampling import sampled
 
 SANITIZE = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g", "-O1")
 
@@ -28,7 +27,8 @@ def sanitized(
     return library
 
 
-@pytest.mark.parametrize("driver", sampled(["step_brake", "illegal", "threads", "life_cycles"], ["illegal"]))
+@pytest.mark.full
+@pytest.mark.parametrize("driver", ["step_brake", "illegal", "threads", "life_cycles"])
 def test_the_sanitizers_have_nothing_to_say(
     driver: str, sanitized: Path, car_trailer_fmu: Path, program: Callable[..., Program]
 ) -> None:

@@ -41,7 +41,7 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
     "sensitivity": ("--samples", "16", "--step", "0.1", "--workers", "1"),
     "fit": ("--fit", "k,C,r"),
 }
-QUICK = {("run", "F_f"), ("couple", "F_0")}
+QUICK = {("couple", "F_0")}
 
 
 def settings_of(name: str) -> list[str]:
