@@ -94,7 +94,8 @@ def model() -> tuple[str, dict[str, tuple[str, Value]]]:
     return MODEL.format(**{key: "\n  ".join(part) for key, part in lines.items()}), values
 
 
-@pytest.mark.parametrize("fmi", [2, pytest.param(3, marks=pytest.mark.full)])
+@pytest.mark.full
+@pytest.mark.parametrize("fmi", [2, 3])
 def test_what_follows_from_a_parameter_that_initial_equations_determine(fmi: int, built: Build) -> None:
     text, values = model()
     fmu = str(built(text, fmi))

@@ -72,6 +72,7 @@ def exact(bench_fmu: Path) -> Trace:
     return truth(bench_fmu, TRUTH.model_dump())
 
 
+@pytest.mark.full
 def test_without_noise_it_finds_the_truth(bench_fmu: Path, exact: Trace) -> None:
     found = fit(exact, fmu=bench_fmu)
     assert [estimate.name for estimate in found.estimates] == list(FITTED)

@@ -144,7 +144,9 @@ def test_one_that_hangs_at_its_end_is_not_waited_for(car_trailer_fmu: Path, tmp_
     assert list(temporary.iterdir()) == []
 
 
-@pytest.mark.parametrize(("sent", "status"), [(signal.SIGINT, 130), (signal.SIGKILL, -signal.SIGKILL)])
+@pytest.mark.parametrize(
+    ("sent", "status"), [(signal.SIGINT, 130), pytest.param(signal.SIGKILL, -signal.SIGKILL, marks=pytest.mark.full)]
+)
 def test_a_command_that_is_ended_leaves_neither_processes_nor_folders(
     sent: signal.Signals, status: int, car_trailer_fmu: Path, tmp_path: Path, temporary: Path
 ) -> None:
