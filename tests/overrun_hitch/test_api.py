@@ -23,7 +23,7 @@ C, EPS = [100.0, 350.0, 2500.0], [0.0, 0.03]
 
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(name, marks=[pytest.mark.full] if name == "fit" else []) for name in (*vars(api),)
+    [pytest.param(name, marks=[pytest.mark.full] if name in ("crosscheck", "fit", "sweep") else []) for name in (*vars(api),)
      if getattr(vars(api)[name], "__module__", "") == api.__name__ and not name.startswith("_")],
 )  # fmt: skip
 def test_examples_of_the_docstrings(name: str) -> None:

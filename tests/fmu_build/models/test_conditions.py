@@ -197,6 +197,6 @@ end M;""",
 }
 
 
-@pytest.mark.parametrize(("name", "fmi"), spread(CASES, [2, 3], every=2))
+@pytest.mark.parametrize(("name", "fmi"), spread(CASES, [2, 3], every=3))
 def test_a_model_against_an_independent_solution(name: str, fmi: int, built: Build) -> None:
     check(CASES[name], fmi, built)

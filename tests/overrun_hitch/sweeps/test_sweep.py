@@ -355,6 +355,7 @@ def test_no_scheduler_and_bad_workers(car_trailer_fmu: Path, tmp_path: Path) -> 
             overrun_hitch.sweep(spec, tmp_path / "b.zarr", fmus=[car_trailer_fmu], scheduler=address)
 
 
+@pytest.mark.full
 def test_the_command_draws_and_tells_and_nothing_listens(
     car_trailer_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
