@@ -21,11 +21,15 @@ from tests.sampling import sampled
 C, EPS = [100.0, 350.0, 2500.0], [0.0, 0.03]
 
 
+FUNCTIONS = [
+    name for name, thing in vars(api).items() if getattr(thing, "__module__", "") == api.__name__ and name[0] != "_"
+]
+LONG = ("crosscheck", "fit", "sweep")
+
+
 @pytest.mark.parametrize(
-    "name",
-    [pytest.param(name, marks=[pytest.mark.full] if name in ("crosscheck", "fit", "sweep") else []) for name in (*vars(api),)
-     if getattr(vars(api)[name], "__module__", "") == api.__name__ and not name.startswith("_")],
-)  # fmt: skip
+    "name", [pytest.param(name, marks=[pytest.mark.full] if name in LONG else []) for name in FUNCTIONS]
+)
 def test_examples_of_the_docstrings(name: str) -> None:
     """That of `fit` needs another FMU."""
     runner = doctest.DocTestRunner()
