@@ -8,12 +8,13 @@ DOCS_READY := .venv/docs-ready
 UNITS := CarTrailer Car Trailer Hitch Bench
 FMUS := $(foreach unit,$(UNITS),build/fmi2/$(unit).fmu build/fmi3/$(unit).fmu)
 READY_MADE := python/overrun_hitch/fmus
-DIST := $(foreach unit,$(UNITS),$(READY_MADE)/fmi2/$(unit).fmu $(READY_MADE)/fmi3/$(unit).fmu)
+SAMPLER := python/overrun_hitch/fmu/sampler.c
+DIST := $(foreach unit,$(UNITS),$(READY_MADE)/fmi2/$(unit).fmu $(READY_MADE)/fmi3/$(unit).fmu) $(READY_MADE)/sampler
 BUILD := $(BIN)/python -m fmu_build modelica/OverrunHitch OverrunHitch.Systems
 SOURCES := $(READY) $(shell find modelica fmu_build -name '*.mo' -o -name '*.order' -o -name '*.py' -o -name '*.[ch]')
 WEB := web/node_modules/.package-lock.json
 NPM := $(shell command -v npm)
-C_FILES := $(shell find fmu_build/runtime -name "*.[ch]") tests/platforms/*.[ch] benchmarks/*.c
+C_FILES := $(shell find fmu_build/runtime -name "*.[ch]") tests/platforms/*.[ch] benchmarks/*.c $(SAMPLER)
 
 help:  ## list the targets
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-15s %s\n", $$1, $$2}'
@@ -90,6 +91,10 @@ $(READY_MADE)/fmi2/%.fmu: $(SOURCES)
 
 $(READY_MADE)/fmi3/%.fmu: $(SOURCES)
 	$(BUILD).$* -o $@ --fmi 3 --platforms all
+
+$(READY_MADE)/sampler: $(READY) $(SAMPLER) fmu_build/fmu/compile.py
+	$(BIN)/python -m fmu_build.fmu.shared $(SAMPLER) $@ all
+	touch $@
 
 $(READY_MADE)/live/index.html: build/live/index.html
 	mkdir -p $(@D)

@@ -2,21 +2,18 @@
 
     python -m benchmarks.many
 
-In this process in turns, 100 output points, two outputs; the results must be the same to the bit. The same runs out of
-a loop in C (many.c) tell what the unit takes by itself, below which no way gets.
+In this process in turns, 100 output points, two outputs; the results must be the same to the bit. The same runs by the
+compiled loop (fmu/sampler.c) and nothing else tell what the unit takes by itself, below which no way gets.
 """
 
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import io
 import os
-import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
-from pathlib import Path
 from time import process_time
 from typing import Any
 
@@ -26,22 +23,21 @@ from fmpy.fmi2 import FMU2Slave
 
 import overrun_hitch as hitch
 from benchmarks.comparison import in_turns
-from fmu_build.fmu.compile import compiler
+from overrun_hitch.fmu.sampler import Sampler, compiled_loop
 
 C, EPS = np.linspace(100.0, 2000.0, 40), np.linspace(0.0, 0.1, 25)
 OUTPUTS = ["compression", "a_car"]
 TIMES = np.append(0.06 * np.arange(100), 6.0)
 ROUNDS = 11
 WANTED = 4.0  # times the CPU time of run_many
-HERE = Path(__file__).parent
 
 
 class Fmpy:
     """An instance, and simulate_fmu on it as FMPy's own documentation shows it for many runs."""
 
-    def __init__(self) -> None:
+    def __init__(self, folder: str) -> None:
         fmu = str(hitch.fmu_path())
-        self.description, self.folder = fmpy.read_model_description(fmu), fmpy.extract(fmu)
+        self.description, self.folder = fmpy.read_model_description(fmu), fmpy.extract(fmu, folder)
         name = self.description.coSimulation.modelIdentifier
         self.unit = FMU2Slave(
             guid=self.description.guid, unzipDirectory=self.folder, modelIdentifier=name, instanceName="unit"
@@ -65,22 +61,13 @@ class Fmpy:
 
 
 class Alone:
-    """The same instance, its runs out of C."""
+    """The same instance, its runs through the compiled loop."""
 
-    def __init__(self, by_fmpy: Fmpy, folder: Path) -> None:
-        library = folder / "many.so"
-        subprocess.run([*compiler(), "-O2", "-shared", "-fPIC", str(HERE / "many.c"), "-o", str(library)], check=True)
+    def __init__(self, by_fmpy: Fmpy) -> None:
         references = {variable.name: variable.valueReference for variable in by_fmpy.description.modelVariables}
         self._unit = by_fmpy.unit
         self._varied = [references[name] for name in ("C", "eps", "brake_torque")]
-        self._table = np.empty((len(TIMES), len(OUTPUTS)))
-        self._outputs = (ctypes.c_uint * len(OUTPUTS))(*[references[name] for name in OUTPUTS])
-        self._run = ctypes.CDLL(str(library))["run"]
-        functions = [ctypes.cast(self._unit.dll[name], ctypes.c_void_p) for name in ("fmi2DoStep", "fmi2GetReal")]
-        sizes = [ctypes.c_size_t(n) for n in self._table.shape]
-        times, values = (ctypes.c_void_p(array.ctypes.data) for array in (TIMES, self._table))
-        unit = ctypes.c_void_p(self._unit.component)
-        self._arguments = (*functions, unit, self._outputs, sizes[1], times, sizes[0], values)
+        self._sampler = Sampler(self._unit, [references[name] for name in OUTPUTS], TIMES, str)
 
     def run_many(self) -> np.ndarray:
         """Values (C, eps, outputs, points)."""
@@ -93,9 +80,7 @@ class Alone:
         self._unit.setupExperiment(tolerance=1e-6, startTime=0.0, stopTime=6.0)
         self._unit.enterInitializationMode()
         self._unit.exitInitializationMode()
-        if status := self._run(*self._arguments):
-            raise RuntimeError(f"the unit ends with status {status}")
-        return self._table.T.copy()
+        return self._sampler.run().T.copy()
 
 
 def ours() -> np.ndarray:
@@ -106,17 +91,19 @@ def ours() -> np.ndarray:
 
 def section() -> str:
     """For results.md. RuntimeError where the ways do not give the same bits."""
-    by_fmpy = Fmpy()
+    if compiled_loop() is None:
+        raise RuntimeError("the loop of fmu/sampler.c is not compiled: a C compiler is needed")
     with tempfile.TemporaryDirectory(prefix="benchmark-") as name:
+        by_fmpy = Fmpy(name)
         ways: dict[str, Callable[[], Any]] = {
             "`hitch.run_many`": ours, "FMPy, one instance": by_fmpy.run_many,
-            "the unit alone, from C": Alone(by_fmpy, Path(name)).run_many,
+            "the unit alone, from C": Alone(by_fmpy).run_many,
         }  # fmt: skip
         first, *others = [way() for way in ways.values()]  # and everything is loaded
         if not all((values == first).all() for values in others):
             raise RuntimeError("run_many, FMPy and C do not give the same bits")
         each = in_turns([lambda way=way: _cpu_time(way) for way in ways.values()], ROUNDS, "many runs")
-    by_fmpy.unit.freeInstance()
+        by_fmpy.unit.freeInstance()
     times = np.median(each, axis=0) / (C.size * EPS.size)
     over = np.median(each / each[:, :1], axis=0)
     rows = [

@@ -21,6 +21,7 @@ LIVE_PAGE = BUILT / "live" / "index.html"  # `make web`, where Node is
 NAMES = ("CarTrailer", "Car", "Trailer", "Hitch", "Bench")  # of classes, and of their files
 VERSIONS = (2, 3)  # of FMI
 GENERATOR = ROOT / "fmu_build"
+SAMPLER = Path(__file__).with_name("sampler.c")
 SOURCES = {".mo", ".order", ".py", ".c", ".h"}
 
 
@@ -52,21 +53,7 @@ def build(fmu: Path = CAR_TRAILER) -> None:
     if not LIBRARY.is_dir():
         raise HitchError(f"{LIBRARY} is not there, so {fmu.name} cannot be built; give a built one with --fmu")
     class_name = f"{LIBRARY.name}.Systems.{fmu.stem}"
-    command = [
-        sys.executable,
-        "-m",
-        "fmu_build",
-        str(LIBRARY),
-        class_name,
-        "-o",
-        str(fmu),
-        "--fmi",
-        fmu.parent.name[-1],
-    ]
-    search = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
-    done = subprocess.run(
-        command, cwd=ROOT, env={**os.environ, "PYTHONPATH": search}, capture_output=True, text=True, check=False
-    )
+    done = _generator("fmu_build", str(LIBRARY), class_name, "-o", str(fmu), "--fmi", fmu.parent.name[-1])
     if done.returncode != 0:
         # The generator says what the user can mend in its last line; what comes before a crash's last line is noise.
         lines = [line.strip() for line in done.stderr.splitlines() if line.strip()]
@@ -75,10 +62,29 @@ def build(fmu: Path = CAR_TRAILER) -> None:
         raise HitchError(f"building {fmu.name} left no file at {fmu}")
 
 
+def sampler_library(machine: str, suffix: str) -> Path | None:
+    """The compiled loop of sampler.py for a machine, by its tuple after FMI 3; None where it is not.
+
+    In a clone it is made for this one, where there is a compiler.
+    """
+    library = BUILT / "sampler" / machine / f"{SAMPLER.stem}{suffix}"
+    if LIBRARY.is_dir() and not (library.is_file() and SAMPLER.stat().st_mtime <= library.stat().st_mtime):
+        _generator("fmu_build.fmu.shared", str(SAMPLER), str(BUILT / "sampler"))
+    return library if library.is_file() else None
+
+
 def siblings(fmu: Path) -> list[Path]:
     """The FMU, and that of the other version of FMI beside it, in fmi2 and fmi3, where it is there."""
     others = [fmu.parent.with_name(folder) / fmu.name for folder in ("fmi2", "fmi3")]
     return [fmu, *(other for other in others if other != fmu and other.is_file())]
+
+
+def _generator(module: str, *arguments: str) -> subprocess.CompletedProcess[str]:
+    """A module of the generator's, run with this Python on what the clone holds."""
+    search = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
+    environment = {**os.environ, "PYTHONPATH": search}
+    command = [sys.executable, "-m", module, *arguments]
+    return subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
 
 
 def _sources() -> Iterator[Path]:

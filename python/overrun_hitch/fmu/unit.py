@@ -7,6 +7,7 @@ directory is what it was.
 
 from __future__ import annotations
 
+import ctypes
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -42,6 +43,7 @@ class Unit:
         self._references = {variable.name: variable.valueReference for variable in description.modelVariables}
         self.names = frozenset(self._references)
         self._derivatives = [unknown.variable for unknown in description.derivatives]
+        self._arrays: dict[tuple[str, ...], Any] = {}  # of references, by the names
         self._fresh = True
 
     def start_with(self, values: Mapping[str, float], relative_tolerance: float) -> None:
@@ -60,7 +62,12 @@ class Unit:
 
     def set(self, values: Mapping[str, float]) -> None:
         """Set inputs, and during a run tunable parameters, by name (SI units)."""
-        self._slave.setReal(*self._settings(values))
+        names, count = tuple(values), len(values)
+        if names not in self._arrays:
+            self._arrays[names] = (ctypes.c_uint * count)(*self._settings(values)[0])
+        # What fmpy's setReal does, which makes both arrays out of lists: of 40 values it takes a tenth of a run's time.
+        numbers = (ctypes.c_double * count)(*values.values())
+        self._slave.fmi2SetReal(self._slave.component, self._arrays[names], count, numbers)
 
     def _settings(self, values: Mapping[str, float]) -> tuple[list[int], list[float]]:
         return [self._references[name] for name in values], list(values.values())
@@ -156,6 +163,10 @@ class TranslatedUnit(HitchUnit):
         self._read = [translated.channels[name].reference for name in given]
         self._factors = [translated.channels[name].factor for name in given]
         self._places = [list(VARIABLES).index(name) for name in given]
+
+    def set(self, values: Mapping[str, float]) -> None:
+        """As of ours, in its own units."""
+        self._slave.setReal(*self._settings(values))
 
     def _settings(self, values: Mapping[str, float]) -> tuple[list[int], list[float]]:
         return self._translated.settings(self.name, values)

@@ -27,6 +27,8 @@ PIECE = 2**20  # bytes read at once
 DESCRIPTION = "modelDescription.xml"
 UNWRITABLE = "the working directory's name has letters that this locale cannot write; allowed: UTF-8, as LC_ALL=C.UTF-8"
 
+_last_read: dict[bytes, Any] = {}  # content, and what fmpy made of it
+
 
 def co_simulation_2(fmu: Path, description: Any, names: list[str]) -> None:
     """HitchError for anything but an FMI 2.0 unit for co-simulation with a library for this machine."""
@@ -57,7 +59,7 @@ def to_run(name: str) -> bool:
     """Whether an entry of an archive matters to who runs the FMU here: not sources, not other machines' binaries."""
     top, _, rest = name.partition("/")
     here = (fmpy.platform, fmpy.platform_tuple)
-    return top not in ("sources", "documentation") and (top != "binaries" or rest.partition("/")[0] in here)
+    return top not in ("sources", "documentation", "extra") and (top != "binaries" or rest.partition("/")[0] in here)
 
 
 def to_read(name: str) -> bool:
@@ -83,13 +85,23 @@ def unpacked(
         if DESCRIPTION not in names:
             raise HitchError(f"{fmu} is broken: it has no {DESCRIPTION}")
         try:
-            description = fmpy.read_model_description(folder)
+            description = _read(folder)
         except UnicodeEncodeError:  # lxml's, which puts a file's name after that of the working directory
             raise HitchError(UNWRITABLE) from None
         except Exception as error:  # fmpy raises bare Exception, and lxml its own
             raise HitchError(f"{fmu} is broken: {one_line(error)}") from None
         check(fmu, description, names)
         yield description, folder
+
+
+def _read(folder: str) -> Any:
+    """A model description; the one of last time, which takes as long as twenty runs, is not read again."""
+    content = Path(folder, DESCRIPTION).read_bytes()
+    if content not in _last_read:
+        description = fmpy.read_model_description(folder)
+        _last_read.clear()
+        _last_read[content] = description
+    return _last_read[content]
 
 
 def _extract(fmu: Path, folder: Path, wanted: Callable[[str], bool]) -> list[str]:
