@@ -18,7 +18,9 @@ from typing import Any
 
 import rumoca
 
-from .source_tree import SourceTree, copy_of_needed, whole_tree
+from .needed_files import needed_files
+from .receivers import with_all_receivers
+from .source_tree import SourceTree, copy_of_needed, library_of, whole_tree
 from .table_calls import with_calls_in_sums
 
 Request = Mapping[str, Any]
@@ -26,11 +28,12 @@ Files = list[tuple[int, str, str]]  # number, name and text of each
 
 MISSING = re.compile("unresolved|not found|does not exist|resolve/parse failed")
 ALGORITHM = "unsupported model algorithm"
+MOST_FUNCTIONS = 8  # whose outputs a model does not all receive: rumoca names one at a time
 ALGORITHM_REMEDY = "give each variable a value in every branch, and loops numbers as bounds; or write a function"
-Rewrite = Callable[[str], str]
+Rewrite = Callable[[str, str], str]  # of a text, and what rumoca says
 
 
-def _restated(text: str) -> str:
+def _restated(text: str, _: str) -> str:
     # Imported only here, because its graphs take 0.2 s, and few models need it.
     from .rewriting.restated import restated
 
@@ -38,7 +41,11 @@ def _restated(text: str) -> str:
 
 
 # What rumoca says, and what says the same in a way that it takes; the last, whatever it says.
-REWRITES: Sequence[tuple[str, Rewrite]] = (("unbalanced model", with_calls_in_sums), ("", _restated))
+REWRITES: Sequence[tuple[str, Rewrite]] = (
+    ("unbalanced model", lambda text, _: with_calls_in_sums(text)),
+    *[("the receiving tuple has", with_all_receivers)] * MOST_FUNCTIONS,
+    ("", _restated),
+)
 # What rumoca says, what shows the place in the source, and what to do.
 REMEDIES = (
     (
@@ -124,15 +131,15 @@ def _model(tree: SourceTree, class_name: str, rewrites: Sequence[tuple[str, Rewr
         return rumoca.Session(roots=[*map(str, tree.libraries)]).load(str(tree.entry), model=class_name)
     except rumoca.RumocaError as error:
         for place, (said, rewrite) in enumerate(rewrites):
-            if said in str(error) and _changed(tree, rewrite):
+            if said in str(error) and _changed(tree, rewrite, str(error)):
                 return _model(tree, class_name, [*rewrites[:place], *rewrites[place + 1 :]])
         raise
 
 
-def _changed(tree: SourceTree, rewrite: Rewrite) -> bool:
+def _changed(tree: SourceTree, rewrite: Rewrite, said: str) -> bool:
     """Whether there was something to rewrite in the files of a copy."""
     texts = {file: file.read_text(encoding="utf-8") for file in tree.written}
-    rewritten = {file: rewrite(text) for file, text in texts.items()}
+    rewritten = {file: rewrite(text, said) for file, text in texts.items()}
     for file, text in rewritten.items():
         file.write_text(text, encoding="utf-8")
     return rewritten != texts
@@ -179,7 +186,7 @@ def _located_message(text: str, entry: Path, class_name: str) -> str:
                 if word.search(line.partition("//")[0]):
                     return f"{file}:{number}: {message}"
     if "resolve/parse failed" in message:
-        meant = _alike(class_name, files)
+        meant = _alike(class_name, [entry] if entry.name != "package.mo" else sorted(entry.parent.rglob("*.mo")))
         return f"{entry}: no class {class_name} in it{f'; did you mean {meant}?' if meant else ''}"
     return f"{entry}: {class_name}: {message}"
 
@@ -208,11 +215,12 @@ def _line(text: str, start: int) -> int:
 
 
 def _files(entry: Path, class_name: str) -> list[Path]:
-    """The files of the library, that of the class itself first."""
+    """The files of the library that the class needs, its own first: in another one the fault can't be."""
     if entry.name != "package.mo":
         return [entry]
     own = class_name.split(".")
-    return sorted(entry.parent.rglob("*.mo"), key=lambda file: (file.stem not in own, file.stem != own[-1], file))
+    needed = needed_files([library_of(entry)], class_name)
+    return sorted(needed, key=lambda file: (file.stem not in own, file.stem != own[-1], file))
 
 
 if __name__ == "__main__":
