@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from overrun_hitch.arguments import check_files, check_kind, check_one_torque, check_result, names_in, numbers
 from overrun_hitch.extras import what_is_missing_told
 from overrun_hitch.parameters import FIGURES, HitchError, Parameters, Scenario, named
 from overrun_hitch.scenarios import asked_scenario, name_with
@@ -85,6 +86,7 @@ def run(
     """
     from overrun_hitch.experiments.step_brake import step_brake
 
+    check_one_torque(profile, brake_torque)
     scenario = asked_scenario(figure, case, parameters, brake_torque=brake_torque, duration=duration)
     return step_brake(
         scenario,
@@ -103,24 +105,11 @@ def _torque(profile: Profile | None) -> Torque | None:
 
     if profile is None or isinstance(profile, str | Path):
         return None if profile is None else read_profile(Path(profile))
+    check_kind("profile", profile, Mapping, "time and brake_torque are, or a file of them")
     missing = [name for name in ("time", "brake_torque") if name not in profile]
     if missing:
         raise HitchError(f"the profile has no {missing[0]}; needed: time (s) and brake_torque (N.m)")
-    return Torque(*(_numbers(name, profile[name]) for name in ("time", "brake_torque")))
-
-
-def _numbers(name: str, values: object) -> Floats:
-    """(n,), of a number too. HitchError for what is none."""
-    import numpy as np
-
-    try:
-        return np.atleast_1d(np.asarray(values, dtype=np.float64))
-    except (TypeError, ValueError):
-        raise HitchError(f"{name} = {values!r:.40} is not allowed: a number is, or several") from None
-
-
-def _names(names: str | Sequence[str]) -> list[str]:
-    return [names] if isinstance(names, str) else list(names)
+    return Torque(*(numbers(name, profile[name]) for name in ("time", "brake_torque")))
 
 
 def run_many(
@@ -160,12 +149,14 @@ def run_many(
     from overrun_hitch.sweeps.planner import planned
     from overrun_hitch.sweeps.spec import SweepSpec
 
+    check_kind("varied", varied, Mapping, 'names and values are, {"C": [100, 500]}')
     base = _base(varied, asked_scenario(figure, case, parameters, duration=duration), parameters)
-    grid = {name: _numbers(name, values).tolist() for name, values in varied.items()}
-    if workers is not None and not 0 <= workers <= MOST_WORKERS:
-        raise HitchError(f"workers = {workers} is not allowed; allowed: 0 to {MOST_WORKERS} processes")
+    grid = {name: numbers(name, values).tolist() for name, values in varied.items()}
+    if workers is not None and not (isinstance(workers, int) and 0 <= workers <= MOST_WORKERS):
+        raise HitchError(f"workers = {workers!r:.40} is not allowed; allowed: 0 to {MOST_WORKERS} processes")
     spec = SweepSpec(
-        name="many runs", grid=grid, parameters=base, trajectories=_names(outputs), metrics=_names(metrics),
+        name="many runs", grid=grid, parameters=base, trajectories=names_in("outputs", outputs),
+        metrics=names_in("metrics", metrics),
         **({} if duration is None else {"duration": duration}), communication_step=communication_step,
         relative_tolerance=relative_tolerance,
     )  # fmt: skip
@@ -202,6 +193,7 @@ def compare(result: xr.Dataset, *, fmu: str | Path | None = None, time_limit: fl
     from overrun_hitch.experiments.step_brake import car_alone, step_brake
     from overrun_hitch.results import scenario_of
 
+    check_result(result)
     scenario = scenario_of(result)
     profile = result.attrs["profile"]
     alone = step_brake(
@@ -251,12 +243,15 @@ def crosscheck(
     from overrun_hitch.fmu.settings import Settings
     from overrun_hitch.foreign.mapping import NO_NAMES, read_mapping
 
-    names = {name: read_mapping(Path(file)) for name, file in (maps or {}).items()}
+    check_one_torque(profile, brake_torque)
+    check_files(files, maps or {}, names_in("figures", figures))
+    names = {str(name): read_mapping(Path(file)) for name, file in (maps or {}).items()}
     asked = [
         Asked(fmu_path() if Path(file) == OURS else Path(file), names.get(str(file), NO_NAMES), None) for file in files
     ]
     scenarios = [
-        asked_scenario(n, None, parameters, duration=duration, brake_torque=brake_torque) for n in _names(figures)
+        asked_scenario(n, None, parameters, duration=duration, brake_torque=brake_torque)
+        for n in names_in("figures", figures)
     ]
     manoeuvres = [Manoeuvre(scenario, Settings(), _torque(profile)) for scenario in scenarios]
     allowed = Allowed(funnel=funnel, funnel_time=funnel_time)
@@ -292,7 +287,8 @@ def stability(
     from overrun_hitch.parameters import CASES, DATUM
 
     start: Parameters = DATUM if case is None else named("case", case, CASES)
-    speeds, dampers = _numbers("V", V), _numbers("C", C)
+    speeds, dampers = numbers("V", V), numbers("C", C)
+    check_kind("deceleration", deceleration, float | int | np.floating, "a number is, in m/s2")
     name = name_with("datum" if case is None else f"case {case}", start, start.changed(parameters))
     study = analyse(name, start.changed(parameters), dampers.tolist(), speeds.tolist(), deceleration)
     names = ("growth_rate", "frequency", "damping_ratio", "amplitude_ratio", "phase")
@@ -326,6 +322,8 @@ def fit(
     >>> {each.name: round(each.value / 10) * 10 for each in found.estimates}
     {'k': 5480, 'C': 300}
     """
+    import pandas as pd
+
     from overrun_hitch.fitting.columns import read_trace
     from overrun_hitch.fitting.fit import fit as search
     from overrun_hitch.fitting.trace import UNITS, Trace
@@ -334,11 +332,12 @@ def fit(
     if isinstance(trace, str | Path):
         trace, _ = read_trace(Path(trace), columns or {}, units or {})
     elif not isinstance(trace, Trace):
+        check_kind("trace", trace, Mapping | pd.DataFrame, "a file, a table or a result of hitch.run is")
         missing = [name for name in ("time", "compression", "F_hitch") if name not in trace]
         if missing:
             raise HitchError(f"the trace has no {missing[0]}; allowed: {', '.join(UNITS)}")
-        trace = Trace(**{name: _numbers(name, trace[name]) for name in UNITS if name in trace})
-    wanted = None if names is None else _names(names)
+        trace = Trace(**{name: numbers(name, trace[name]) for name in UNITS if name in trace})
+    wanted = None if names is None else names_in("names", names)
     return search(trace, DATUM.changed(parameters), wanted, fmu_path("Bench") if fmu is None else Path(fmu))
 
 
@@ -350,6 +349,7 @@ def plot(result: xr.Dataset) -> Figure:
     """
     from overrun_hitch.show.traces import draw
 
+    check_result(result)
     return draw(result)
 
 
@@ -372,7 +372,9 @@ def sweep(
     with what_is_missing_told():
         from overrun_hitch.show import terminal
         from overrun_hitch.sweeps.engine import sweep as run_sweep
+        from overrun_hitch.sweeps.spec import SweepSpec
 
+    check_kind("spec", spec, SweepSpec | Mapping | str | Path, "settings are, or a TOML file of them")
     asked = Path(spec) if isinstance(spec, str) else spec
     with terminal.counting("runs") as told:
         return run_sweep(

@@ -16,7 +16,7 @@ import re
 from collections.abc import Iterable, Mapping
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
 # Whose a parameter is: of Car.fmu, of Trailer.fmu, of both, or of Trailer.fmu and making what passes between car and
 # trailer, so that with all of these at 0 the car runs as if alone.
@@ -42,6 +42,15 @@ class Quantities(BaseModel):
             super().__init__(**values)
         except ValidationError as error:
             raise HitchError(self._explain(error.errors()[0])) from None
+
+    @field_validator("*", mode="before")
+    @classmethod
+    def _is_a_number(cls, value: Any) -> Any:
+        """True is 1 to Python, and to nobody who asks for a damper; durations and dates of NumPy are floats to it."""
+        kind = getattr(getattr(value, "dtype", None), "kind", "f")
+        if isinstance(value, bool) or kind in "bmM":
+            raise ValueError("no number")
+        return value
 
     @classmethod
     def unit(cls, name: str) -> str:
@@ -103,6 +112,8 @@ class Quantities(BaseModel):
         if error["type"] == "missing":
             return f"{name} is missing: {cls.description(name)} must be {cls.allowed(name)}"
         try:
+            if error["type"] == "value_error":  # of `_is_a_number`
+                raise TypeError
             shown = with_unit(float(error["input"]), cls.unit(name))
         except (TypeError, ValueError, OverflowError):
             shown = f"{error['input']!r:.40}"

@@ -23,7 +23,8 @@ def asked_scenario(
         scenario = scenario.changed(name=f"case {case}", parameters=named("case", case, CASES))
     given = {name: value for name, value in settings.items() if value is not None}
     changed = scenario.changed(parameters=scenario.parameters.changed(changes), **given)
-    return changed.changed(name=name_with(scenario.name, scenario.parameters, changed.parameters, given))
+    others = {name: getattr(changed, name) for name in given}
+    return changed.changed(name=name_with(scenario.name, scenario.parameters, changed.parameters, others))
 
 
 def name_with(name: str, before: Parameters, after: Parameters, others: Mapping[str, float] | None = None) -> str:

@@ -6,16 +6,20 @@ import doctest
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import fmpy
 import numpy as np
 import pytest
 import xarray as xr
 from fmpy.fmi2 import FMU2Slave
+from hypothesis import given
+from hypothesis import strategies as st
 
 import overrun_hitch as hitch
 from overrun_hitch import api
 from overrun_hitch.fmu.files import NAMES
+from overrun_hitch.scenarios import asked_scenario
 from tests.sampling import sampled
 
 C, EPS = [100.0, 350.0, 2500.0], [0.0, 0.03]
@@ -128,6 +132,14 @@ def test_where_our_fmus_are(name: str, fmi: int) -> None:
         (lambda: hitch.stability("x"), "no case 'x'"),
         (lambda: hitch.stability(CdA_c=1.0), "CdA_c"),
         (lambda: hitch.sweep("nowhere.toml", "store"), "nowhere.toml"),
+        (lambda: hitch.run(profile={"time": [0], "brake_torque": [0]}, brake_torque=5), "exclude each other"),
+        (lambda: hitch.crosscheck(["ours", "theory"], profile="a.csv", brake_torque=5), "exclude each other"),
+        (lambda: hitch.run(profile={"time": [], "brake_torque": []}), "the profile has no knot"),
+        (lambda: hitch.run_many({"C": [1]}, workers=1.5), "workers = 1.5 is not allowed; allowed: 0 to 1000"),
+        (lambda: hitch.crosscheck("ours"), "files = 'ours' is not allowed"),
+        (lambda: hitch.crosscheck(["ours", "theory"], []), "no figure is to be compared; allowed: 6a"),
+        (lambda: hitch.crosscheck(["ours", "theory"], maps={"a.fmu": "a.toml"}), "maps: 'a.fmu' is none of the files"),
+        (lambda: hitch.plot(hitch.run(duration=0.1)[["compression"]]), "the result has no v_car"),
     ],
 )
 def test_what_a_caller_can_mend(call, message: str) -> None:
@@ -135,6 +147,54 @@ def test_what_a_caller_can_mend(call, message: str) -> None:
         call()
     assert message in str(caught.value)
     assert len(str(caught.value).splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    "value", [True, np.True_, np.timedelta64(1000, "ms"), 1j, None, "", "x", object(), [[1], [2, 3]]]
+)
+def test_only_numbers_are_numbers(value: Any) -> None:
+    """Where one is asked for, and where several are. NumPy would make 1 of True, and 1000 of a second."""
+    calls = (
+        lambda: hitch.Parameters(C=value),
+        lambda: hitch.run_many({"C": value}),
+        lambda: hitch.stability(C=value),
+        lambda: hitch.stability(deceleration=value),
+        lambda: hitch.run(profile={"time": [0], "brake_torque": value}),
+    )
+    for call in calls:
+        with pytest.raises(hitch.HitchError):
+            call()
+
+
+def test_what_is_masked_is_no_number() -> None:
+    with pytest.raises(hitch.HitchError, match="C = masked_array"):
+        hitch.run_many({"C": np.ma.array([1.0, 2.0], mask=[False, True])})
+
+
+@pytest.mark.parametrize("value", [None, 5, 1.5, object()])
+def test_what_is_of_another_kind_is_told(value: Any) -> None:
+    """Of every argument that is no number; None where it stands for nothing else."""
+    calls = [
+        lambda: hitch.run_many(value),
+        lambda: hitch.run_many({"C": [1]}, outputs=value),
+        lambda: hitch.compare(value),
+        lambda: hitch.plot(value),
+        lambda: hitch.fit(value),
+        lambda: hitch.sweep(value, "store"),
+        lambda: hitch.crosscheck(value),
+        lambda: hitch.crosscheck(["ours", value]),
+        *([] if value is None else [lambda: hitch.run(profile=value)]),
+    ]
+    for call in calls:
+        with pytest.raises(hitch.HitchError, match=r"is not allowed|no variable"):
+            call()
+
+
+@given(st.floats(0.01, 1e3))
+def test_a_number_may_be_text(value: float) -> None:
+    """As a table's cell is; the scenario is that of the number, its name too."""
+    one, other = ({"brake_torque": each, "duration": each} for each in (value, repr(value)))
+    assert asked_scenario("8", None, {"C": repr(value)}, **other) == asked_scenario("8", None, {"C": value}, **one)
 
 
 def test_files_may_be_text(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from overrun_hitch.arguments import check_one_torque
 from overrun_hitch.commands.options import (
     ParametersOption,
     ProfileOption,
@@ -75,6 +76,7 @@ def crosscheck(
         return _propose(propose, output)
     given = files_ or []
     changes = asked_changes(parameters, set_)
+    check_one_torque(profile, brake_torque)
     settings_ = {"duration": duration, "brake_torque": brake_torque}
     scenarios = [asked_scenario(name, None, changes, **settings_) for name in dict.fromkeys(figure or FIGURES)]
 

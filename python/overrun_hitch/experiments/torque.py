@@ -28,8 +28,13 @@ class Torque:
             raise HitchError(f"the profile's {shapes}; allowed: (n,), the same for both")
         if not (np.isfinite(self.time).all() and np.isfinite(self.values).all()):
             raise HitchError("the profile has a time or a brake_torque that is not finite; allowed: finite numbers")
-        if not self.time.size or (np.diff(self.time) < 0.0).any():
-            raise HitchError("the profile's time must not decrease, from one knot on")
+        if not self.time.size:
+            raise HitchError("the profile has no knot; allowed: one or more")
+        if (np.diff(self.time) < 0.0).any():
+            at = int(np.argmax(np.diff(self.time) < 0.0))
+            raise HitchError(
+                f"the profile's time must not decrease: {self.time[at + 1]:g} s is after {self.time[at]:g} s"
+            )
         if (self.values < 0.0).any():
             raise HitchError(f"brake_torque = {self.values.min():g} N.m is not allowed: {_RANGE}")
 

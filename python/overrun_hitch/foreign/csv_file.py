@@ -5,6 +5,7 @@ from __future__ import annotations
 import codecs
 import io
 import re
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -26,7 +27,7 @@ def read_csv_file(path: Path) -> Table:
     if len(frame) > 1 and _is_words(frame.iloc[0]) and not _is_words(frame.iloc[1]):
         units = [text.strip().strip("[]()") or None for text in frame.iloc[0]]
         frame, first = frame.iloc[1:], 3
-    names = [str(name) for name in frame.columns]
+    names = [str(name).strip() for name in frame.columns]
 
     def read(name: str) -> Floats:
         place = names.index(name)
@@ -37,14 +38,33 @@ def read_csv_file(path: Path) -> Table:
 
 def _frame(path: Path) -> pd.DataFrame:
     try:
-        text = _text(path.read_bytes())
+        text = io.StringIO(_text(path.read_bytes()), newline=None).read()
         head = text.partition("\n")[0]
         separator = next((mark for mark in SEPARATORS if mark in head), r"\s+")
-        return pd.read_csv(io.StringIO(text), sep=separator, skipinitialspace=True, dtype=str, keep_default_na=False)
+        try:
+            return _parsed(text, separator)
+        except pd.errors.ParserWarning:  # which may be no numbers, but separators at the ends of the lines
+            return _parsed(re.sub(rf"{re.escape(separator)}[ ]*$", "", text, flags=re.MULTILINE), separator)
     except OSError as error:
         raise HitchError(f"cannot read {path}: {error.strerror or error}") from None
+    except pd.errors.ParserWarning:
+        raise HitchError(f"{path}: lines have more numbers than there are names; allowed: one for each") from None
     except (ValueError, pd.errors.ParserError) as error:
         raise HitchError(f"{path} is no table under one line of names: {' '.join(str(error).split())}") from None
+
+
+def _parsed(text: str, separator: str) -> pd.DataFrame:
+    """Cells as text. ParserWarning where lines have more of them than names, of which pandas would lose some."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", pd.errors.ParserWarning)
+        return pd.read_csv(
+            io.StringIO(text),
+            sep=separator,
+            skipinitialspace=True,
+            dtype=str,
+            keep_default_na=False,
+            index_col=False,  # else the first column is none where all lines have a number too many
+        )
 
 
 def _text(content: bytes) -> str:

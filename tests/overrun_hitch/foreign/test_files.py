@@ -46,6 +46,25 @@ def test_a_table_is_the_same_in_any_form(
     np.testing.assert_allclose(table.column("k")[0], numbers, rtol=1e-3)
 
 
+@pytest.mark.parametrize("separator", [",", ";", "\t", "|", " "])
+def test_numbers_without_a_name_never_move_the_others(separator: str, tmp_path: Path) -> None:
+    """A number too many on all lines made the first column none, and the others' names one too far to the left."""
+    path = tmp_path / "a.csv"
+    path.write_text("\n".join(map(separator.join, (("time", "torque"), ("0", "1", "5"), ("1", "2", "6")))))
+    with pytest.raises(HitchError, match=r"allowed: one for each|is no table"):
+        read_table(path)
+
+
+@pytest.mark.parametrize("separator", [", ", " ; ", " \t", " | "])
+def test_separators_at_the_ends_and_spaces_around_names_are_nothing(separator: str, tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text(
+        f" time {separator}torque \n0{separator}1{separator.strip(' ')}\n1{separator}2{separator.strip(' ')}\n"
+    )
+    table = read_table(path)
+    assert [table.column(name)[0].tolist() for name in ("time", "torque")] == [[0.0, 1.0], [1.0, 2.0]]
+
+
 @pytest.mark.parametrize(
     ("unit", "ours", "expected"),
     [
