@@ -37,8 +37,18 @@ def _restated(text: str) -> str:
     return restated(text)
 
 
+def _with_undefined_outputs(text: str) -> str:
+    from .rewriting.function_words import with_undefined_outputs
+
+    return with_undefined_outputs(text)
+
+
 # What rumoca says, and what says the same in a way that it takes; the last, whatever it says.
-REWRITES: Sequence[tuple[str, Rewrite]] = (("unbalanced model", with_calls_in_sums), ("", _restated))
+REWRITES: Sequence[tuple[str, Rewrite]] = (
+    ("unbalanced model", with_calls_in_sums),
+    ("without a definition on some branch", _with_undefined_outputs),
+    ("", _restated),
+)
 # What rumoca says, what shows the place in the source, and what to do.
 REMEDIES = (
     (
