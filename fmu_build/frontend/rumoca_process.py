@@ -67,6 +67,17 @@ REMEDIES = (
         "rumoca supports `outer {0}` for parameters and discrete variables alone, which may be why; declare a component"
         " that has it, `inner Surroundings s` and `outer Surroundings s`, or hand it down through a connector",
     ),
+    (
+        "finite arithmetic-series form",
+        r"\bbreak\s*;",
+        "write the loop without break: `if` around what is passed over",
+    ),
+    (
+        "statement without a checked DAE owner",
+        r"\bwhile\b",
+        "write a for with numbers or sizes as bounds in place of the while",
+    ),
+    ("reference `spatialDistribution`", r"\bspatialDistribution\b", "write the pipe as a row of cells, each a state"),
 )
 
 

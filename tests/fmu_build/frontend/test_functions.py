@@ -115,3 +115,19 @@ def test_where_no_branch_assigns_it_the_run_ends(built: Build) -> None:
     with pytest.raises(fmpy.fmi1.FMICallException):
         fmpy.simulate_fmu(str(built(TABLE, 2)), stop_time=9, logger=lambda *message: said.append(str(message[-1])))
     assert re.search(r"y = NaN is not finite at t = 8", " ".join(said))
+
+
+@pytest.mark.parametrize(
+    ("body", "remedy"),
+    [
+        (
+            "y := 0; for i in 1:n loop y := y + x^i; if i >= 2 then break; end if; end for;",
+            "write the loop without break",
+        ),
+        ("y := 0; i := 1; while i <= n loop y := y + x^i; i := i + 1; end while;", "in place of the while"),
+    ],
+)
+def test_what_is_refused_says_what_to_write(body: str, remedy: str, sorted_model: Sorted) -> None:
+    function = f"function f input Real x; input Integer n; output Real y; protected Integer i; algorithm {body} end f;"
+    with pytest.raises(BuildError, match=rf"M\.mo:1: .*{remedy}"):
+        sorted_model(f"{function}\nmodel M Real y = f(time, 3); end M;")
