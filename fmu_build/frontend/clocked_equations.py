@@ -82,6 +82,10 @@ class _Rewriting:
         if function in CROSSING:
             return arguments[0]
         if function == "Sample" and (len(arguments) == 1 or self._partitions.clock_named(arguments[1])):
+            for name in names_in(call["args"][0]):
+                if self._partitions.of_partition(name) is not None:
+                    place = self._sources.find_place(tree)
+                    raise BuildError(f"{place}: sample of {name}, which has a clock already: write hold({name}) in it")
             return self._before(arguments[0])
         if function == "Previous":
             return {"BuiltinCall": {**call, "function": "Pre", "args": arguments}}

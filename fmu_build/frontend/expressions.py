@@ -12,6 +12,7 @@ from sympy.logic.boolalg import Boolean
 from ..errors import BuildError
 from ..ir.conditions import compare
 from ..ir.equations import Assignment, Relation
+from ..ir.functions import no_number
 from ..ir.symbols import der, holds, shared_name, symbol
 from .builtin import ARRAY, BINARY, SCALAR, SIZES, finite
 from .choices import CHOICES
@@ -93,7 +94,9 @@ class ExpressionReader:
         return combine(lambda scalar: self._share(name, scalar), value) if self._shares else value
 
     def _share(self, name: str, scalar: sympy.Expr | None) -> sympy.Expr | None:
-        return scalar if scalar is None or not _is_large(scalar) else self.named(name, scalar)
+        # A variable is computed in any case, and NaN ends the run, though only a branch may need it that is not taken.
+        is_kept = scalar is None or not _is_large(scalar) or scalar.has(no_number)
+        return scalar if is_kept else self.named(name, scalar)
 
     def named(self, name: str, scalar: sympy.Expr) -> sympy.Expr:
         """A variable that equals an expression, named after ``name``; the expression where there can be none."""

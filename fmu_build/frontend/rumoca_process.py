@@ -40,10 +40,17 @@ def _restated(text: str, _: str) -> str:
     return restated(text)
 
 
+def _with_undefined_outputs(text: str, _: str) -> str:
+    from .rewriting.function_words import with_undefined_outputs
+
+    return with_undefined_outputs(text)
+
+
 # What rumoca says, and what says the same in a way that it takes; the last, whatever it says.
 REWRITES: Sequence[tuple[str, Rewrite]] = (
     ("unbalanced model", lambda text, _: with_calls_in_sums(text)),
     *[("the receiving tuple has", with_all_receivers)] * MOST_FUNCTIONS,
+    ("without a definition on some branch", _with_undefined_outputs),
     ("", _restated),
 )
 # What rumoca says, what shows the place in the source, and what to do.
@@ -64,6 +71,17 @@ REMEDIES = (
         "rumoca supports `outer {0}` for parameters and discrete variables alone, which may be why; declare a component"
         " that has it, `inner Surroundings s` and `outer Surroundings s`, or hand it down through a connector",
     ),
+    (
+        "finite arithmetic-series form",
+        r"\bbreak\s*;",
+        "write the loop without break: `if` around what is passed over",
+    ),
+    (
+        "statement without a checked DAE owner",
+        r"\bwhile\b",
+        "write a for with numbers or sizes as bounds in place of the while",
+    ),
+    ("reference `spatialDistribution`", r"\bspatialDistribution\b", "write the pipe as a row of cells, each a state"),
 )
 
 

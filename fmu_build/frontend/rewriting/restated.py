@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .algorithms import as_equations, first_section
 from .clocked_bindings import with_clocked_equations
+from .function_words import with_equals_signs
 from .lifted import with_parts_lifted
 from .ranges import with_ranges
 from .when_equations import with_whens_restated
@@ -11,7 +12,8 @@ from .when_equations import with_whens_restated
 
 def restated(text: str) -> str:
     """The text with sections as equations, simpler when-clauses, parts of expressions lifted, ranges written out."""
-    return with_clocked_equations(with_parts_lifted(with_whens_restated(as_equations(with_ranges(text)))))
+    sections = as_equations(with_ranges(with_equals_signs(text)))
+    return with_clocked_equations(with_parts_lifted(with_whens_restated(sections)))
 
 
 def algorithm_left(text: str) -> int | None:

@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable
 
 import fmpy
+import numpy as np
 import pytest
 import sympy
 
@@ -76,3 +77,57 @@ def test_it_is_refused_where_it_does_not_count_at_any_time(value: str, sorted_mo
 
 def test_it_is_none_where_it_is_known_to_hold(sorted_model: Sorted) -> None:
     assert sorted_model(ASSERTING.replace("{}", "if x > 0.5 then root(2, 0.5) else 0")).schedule.checks == ()
+
+
+TABLE = """
+function interpolated "As textbooks have it: y gets a value in the one interval that has x"
+  input Real x := 0.0;
+  input Real points[:, 2];
+  output Real y(unit="1") "Value";
+protected
+  Real p;
+algorithm
+  for i in 1:size(points, 1) - 1 loop
+    if x >= points[i, 1] and x <= points[i + 1, 1] then
+      p := (x - points[i, 1])/(points[i + 1, 1] - points[i, 1]);
+      y := p*points[i + 1, 2] + (1 - p)*points[i, 2];
+    end if;
+  end for;
+end interpolated;
+model Interpolation
+  parameter Real points[:, 2] = [0, 0; 2, 0; 4, 2; 6, 0; 8, 0];
+  output Real y;
+equation
+  y = interpolated(time, points);
+end Interpolation;
+"""
+
+
+@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
+def test_an_output_that_only_branches_assign(kind: str, built: Build) -> None:
+    result = fmpy.simulate_fmu(str(built(TABLE, 2)), stop_time=7, output_interval=0.133, fmi_type=kind)
+    expected = np.interp(result["time"], [0, 2, 4, 6, 8], [0, 0, 2, 0, 0])
+    assert result["y"] == pytest.approx(expected, abs=1e-12)
+
+
+def test_where_no_branch_assigns_it_the_run_ends(built: Build) -> None:
+    said: list[str] = []
+    with pytest.raises(fmpy.fmi1.FMICallException):
+        fmpy.simulate_fmu(str(built(TABLE, 2)), stop_time=9, logger=lambda *message: said.append(str(message[-1])))
+    assert re.search(r"y = NaN is not finite at t = 8", " ".join(said))
+
+
+@pytest.mark.parametrize(
+    ("body", "remedy"),
+    [
+        (
+            "y := 0; for i in 1:n loop y := y + x^i; if i >= 2 then break; end if; end for;",
+            "write the loop without break",
+        ),
+        ("y := 0; i := 1; while i <= n loop y := y + x^i; i := i + 1; end while;", "in place of the while"),
+    ],
+)
+def test_what_is_refused_says_what_to_write(body: str, remedy: str, sorted_model: Sorted) -> None:
+    function = f"function f input Real x; input Integer n; output Real y; protected Integer i; algorithm {body} end f;"
+    with pytest.raises(BuildError, match=rf"M\.mo:1: .*{remedy}"):
+        sorted_model(f"{function}\nmodel M Real y = f(time, 3); end M;")

@@ -153,3 +153,13 @@ def test_other_clocks_are_refused_with_their_place(clock: str, said: str, modeli
     )
     with pytest.raises(BuildError, match=rf"M.mo:\d: .*{said}"):
         flatten(path, "M")
+
+
+def test_a_sample_of_what_has_a_clock_is_refused(modelica_file: Writer) -> None:
+    """interval(u) says that u has a clock; sample(u) would be a value one tick old."""
+    path = modelica_file(
+        "model M\n  Real u = time;\n  Real y(start=0);\nequation\n  when Clock(0.2) then\n"
+        "    y = previous(y) + interval(u)*sample(u);\n  end when;\nend M;\n"
+    )
+    with pytest.raises(BuildError, match=r"M.mo:6: sample of u, which has a clock already"):
+        flatten(path, "M")
