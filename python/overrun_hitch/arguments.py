@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from overrun_hitch.parameters import FIGURES, HitchError
-from overrun_hitch.results import VARIABLES, scenario_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -68,6 +67,8 @@ def check_files(files: object, maps: Mapping[str, object], figures: Sequence[str
 def check_result(result: xr.Dataset) -> None:
     """The whole of what `run` returns."""
     import xarray as xr
+
+    from overrun_hitch.results import VARIABLES, scenario_of  # which brings numpy, and commands use this module
 
     check_kind("result", result, xr.Dataset, "what hitch.run returns is")
     scenario_of(result)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from overrun_hitch.arguments import check_one_torque
 from overrun_hitch.commands.hints import hint
 from overrun_hitch.commands.options import (
     FmuOption,
@@ -49,6 +50,7 @@ def run(
 ) -> int:
     """Brake car and trailer by a step, compare with theory, draw the paper's traces and write them as CSV."""
     changes = asked_changes(parameters, set_)
+    check_one_torque(profile, brake_torque)
     scenario = asked_scenario(figure, case, changes, duration=duration, brake_torque=brake_torque)
     if profile:  # what is drawn and written must not pass for the paper's
         scenario = scenario.changed(name=f"{scenario.name}, profile {profile.stem}")

@@ -37,6 +37,7 @@ BAD = [
     (["--figure", "12"], "there is no figure '12'; allowed: "),
     (["--case", "x"], "there is no case 'x'; did you mean ix? allowed: i, "),
     (["--figure", "8", "--case", "ii"], "figure and case exclude each other"),
+    (["--profile", "a.csv", "--brake-torque", "5"], "profile and brake_torque exclude each other"),
     (["--duration", "0"], "duration = 0 s"),
     (["--duration", "inf"], "duration = inf s"),
     (["--duration", "soon"], "Invalid value for '--duration'"),
