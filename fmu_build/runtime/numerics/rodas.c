@@ -83,7 +83,7 @@ int rodas_try(Rodas *r, double length, Variables *v, const bool holds[])
 {
     Vector f;
     Vector right;
-    Vector lost; /* by the solution of the first system */
+    Vector lost = {0.0}; /* by the solution of the first system */
     const double shift = 1.0 / (RODAS_GAMMA * length);
     r->path.length = length;
     if (!lu_factorize(r->jacobian, shift, r->factors)) {
