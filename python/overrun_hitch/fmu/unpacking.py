@@ -25,6 +25,7 @@ HIGHEST_RATIO = 200  # of unpacked to packed; binaries have 2 to 10, and a defla
 SMALL = 2**24  # bytes: below, the ratio harms nobody
 PIECE = 2**20  # bytes read at once
 DESCRIPTION = "modelDescription.xml"
+REFERENCE_RESULTS = "org.fmi-standard.fmi-ls-ref"  # the folder of that layered standard, under extra
 UNWRITABLE = "the working directory's name has letters that this locale cannot write; allowed: UTF-8, as LC_ALL=C.UTF-8"
 
 _last_read: dict[bytes, Any] = {}  # content, and what fmpy made of it
@@ -58,8 +59,10 @@ def check_library(fmu: Path, description: Any, names: list[str], use: Use) -> No
 def to_run(name: str) -> bool:
     """Whether an entry of an archive matters to who runs the FMU here: not sources, not other machines' binaries."""
     top, _, rest = name.partition("/")
-    here = (fmpy.platform, fmpy.platform_tuple)
-    return top not in ("sources", "documentation", "extra") and (top != "binaries" or rest.partition("/")[0] in here)
+    within = rest.partition("/")[0]
+    if top in ("binaries", "extra"):
+        return within in (fmpy.platform, fmpy.platform_tuple) if top == "binaries" else within != REFERENCE_RESULTS
+    return top not in ("sources", "documentation")
 
 
 def to_read(name: str) -> bool:

@@ -100,6 +100,7 @@ def test_only_what_is_needed_is_unpacked(wanted: Callable[[str], bool], tmp_path
     fmu = tmp_path / "unit.fmu"
     fmu.write_bytes(car_trailer_fmu.read_bytes())
     left = {"sources/a.c", "documentation/a.html", "binaries/riscv64-linux/a.so"}
+    left |= {"extra/org.fmi-standard.fmi-ls-ref/a.csv"}
     kept = {"resources/a.bin", "extra/a.csv", "a.txt", f"binaries/{fmpy.platform}/a.so"}
     with zipfile.ZipFile(fmu, "a") as archive:
         for name in (*left, *kept):
